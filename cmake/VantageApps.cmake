@@ -1,0 +1,28 @@
+# The layers above the planner and the command-line program.
+
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(PNG REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(nanoflann REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(assimp REQUIRED)
+
+vantage_library(registration registration)
+target_link_libraries(vantage_registration PUBLIC vantage_core PRIVATE $<BUILD_INTERFACE:nanoflann::nanoflann>)
+
+vantage_library(simulation simulation)
+target_link_libraries(vantage_simulation PUBLIC vantage_core PRIVATE embree fmt::fmt)
+
+vantage_library(full reconstruction io experiments)
+target_link_libraries(vantage_full
+  PUBLIC vantage_core vantage_registration vantage_simulation nlohmann_json::nlohmann_json
+  PRIVATE fmt::fmt yaml-cpp PNG::PNG assimp::assimp)
+
+file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)
+list(FILTER vantage_app_sources EXCLUDE REGEX "_test\\.cpp$")
+add_executable(vantage ${vantage_app_sources})
+target_link_libraries(vantage PRIVATE vantage_full vantage_build_settings fmt::fmt CLI11::CLI11)
+target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
+set_target_properties(vantage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -1,0 +1,32 @@
+# Compiler settings that every target of the project shares, and the rule by which folders become libraries.
+
+add_library(vantage_build_settings INTERFACE)
+target_compile_features(vantage_build_settings INTERFACE cxx_std_20)
+target_compile_options(vantage_build_settings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  # Fused multiply-add changes last bits; without it every processor computes the same map.
+  -ffp-contract=off
+  $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
+if(VANTAGE_SANITIZE)
+  target_compile_options(vantage_build_settings INTERFACE
+    -fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(vantage_build_settings INTERFACE -fsanitize=${VANTAGE_SANITIZE})
+endif()
+
+# vantage_library(NAME FOLDER...): the static library vantage::NAME from src/vantage/FOLDER/*.cpp, tests excluded.
+function(vantage_library name)
+  set(sources)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/vantage/${folder}/*.cpp)
+    list(FILTER found EXCLUDE REGEX "_test\\.cpp$")
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(vantage_${name} STATIC ${sources})
+  add_library(vantage::${name} ALIAS vantage_${name})
+  set_target_properties(vantage_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(vantage_${name} PUBLIC cxx_std_20)
+  target_include_directories(vantage_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(vantage_${name} PRIVATE $<BUILD_INTERFACE:vantage_build_settings>)
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_LIBRARIES vantage_${name})
+endfunction()

@@ -1,0 +1,43 @@
+# One test program per folder, from the *_test.cpp files beside the sources. Files named *_slow_test.cpp go into the
+# labelled set that `ctest -L slow` runs and that the default run leaves out.
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+set(VANTAGE_SHARED_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH
+  "Folder with object meshes and real scans; tests that need it skip where it does not exist")
+
+# vantage_folder_tests(FOLDER LIBRARY...): tests of src/vantage/FOLDER linked to the given libraries.
+function(vantage_folder_tests folder)
+  vantage_test_program(${folder}_test "${PROJECT_SOURCE_DIR}/src/vantage/${folder}" ${ARGN})
+endfunction()
+
+function(vantage_test_program name directory)
+  file(GLOB fast CONFIGURE_DEPENDS ${directory}/*_test.cpp)
+  set(slow ${fast})
+  list(FILTER fast EXCLUDE REGEX "_slow_test\\.cpp$")
+  list(FILTER slow INCLUDE REGEX "_slow_test\\.cpp$")
+  vantage_add_tests(${name} "default" 240 "${fast}" ${ARGN})
+  vantage_add_tests(${name}_slow "slow" 2400 "${slow}" ${ARGN})
+endfunction()
+
+function(vantage_add_tests name label seconds sources)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${ARGN} vantage_build_settings GTest::gmock GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE VANTAGE_SHARED_DATA="${VANTAGE_SHARED_DATA}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${label} TIMEOUT ${seconds})
+endfunction()
+
+foreach(folder core sensor map candidates visibility robot utility search planning)
+  vantage_folder_tests(${folder} vantage_core)
+endforeach()
+if(VANTAGE_APPS)
+  vantage_folder_tests(registration vantage_registration)
+  vantage_folder_tests(simulation vantage_simulation)
+  foreach(folder reconstruction io experiments)
+    vantage_folder_tests(${folder} vantage_full)
+  endforeach()
+endif()
