@@ -108,8 +108,7 @@ Candidates view_sphere(int count, double radius, const Vec3& center) {
 
 Candidates view_cube(int n, const Vec3& side, double inner_radius, double outer_radius, const Vec3& center) {
   require(n > 0 && n <= 512, "view cube: n = ", n, ": must be in 1..512");
-  require((side.array() > 0).all() && side.allFinite(), "view cube: sides ", side.transpose(),
-          " m: must be positive");
+  require((side.array() > 0).all() && side.allFinite(), "view cube: sides ", side.transpose(), " m: must be positive");
   require(inner_radius >= 0 && outer_radius > inner_radius, "view cube: radii ", inner_radius, " .. ", outer_radius,
           " m: the inner must not be negative and the outer must be greater");
   Candidates candidates;

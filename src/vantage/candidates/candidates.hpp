@@ -11,8 +11,8 @@ namespace vantage {
 /// Where candidates of a view cube sit: cell (x,y,z) of n^3, x fastest.
 struct CandidateGrid {
   int cells_per_side = 0;
-  Vec3 spacing = Vec3::Zero();          // metres between neighbouring cells, per axis
-  std::vector<Index3> cell_of_view;     // one per view
+  Vec3 spacing = Vec3::Zero();       // metres between neighbouring cells, per axis
+  std::vector<Index3> cell_of_view;  // one per view
 
   bool operator==(const CandidateGrid&) const = default;
 };
@@ -21,17 +21,18 @@ struct CandidateGrid {
 struct Candidates {
   enum class Kind { sphere, grid, list };
   Kind kind = Kind::list;
-  Vec3 center = Vec3::Zero();           // what they look at
+  Vec3 center = Vec3::Zero();  // what they look at
   std::vector<View> views;
-  std::optional<CandidateGrid> grid;    // for a view cube
+  std::optional<CandidateGrid> grid;  // for a view cube
 };
 
-/// View sphere (paper, section 4.1): the face centres of an icosahedron each of whose faces is split in four, as often as
-/// `count` = 20*4^k asks for; all at `radius` metres from `center`, looking at it. Any other count throws InputError.
+/// View sphere (paper, section 4.1): the face centres of an icosahedron each of whose faces is split in four, as often
+/// as `count` = 20*4^k asks for; all at `radius` metres from `center`, looking at it. Any other count throws
+/// InputError.
 [[nodiscard]] Candidates view_sphere(int count, double radius, const Vec3& center);
 
-/// View cube (paper, section 4.1): the centres of n^3 cells of a box with edges `side` (metres), kept where the distance
-/// to `center` lies within [inner_radius, outer_radius], looking at the center.
+/// View cube (paper, section 4.1): the centres of n^3 cells of a box with edges `side` (metres), kept where the
+/// distance to `center` lies within [inner_radius, outer_radius], looking at the center.
 [[nodiscard]] Candidates view_cube(int n, const Vec3& side, double inner_radius, double outer_radius,
                                    const Vec3& center);
 

@@ -30,7 +30,8 @@ struct IndexBox {
 [[nodiscard]] constexpr double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// The pose of a sensor (x right, y down, z forward) at `position` that looks at `target`. Up is +z, or +y where the
-/// viewing direction is within 2.6 degrees of the z axis (|axis.z| > 0.999). Throws InputError where both points coincide.
+/// viewing direction is within 2.6 degrees of the z axis (|axis.z| > 0.999). Throws InputError where both points
+/// coincide.
 [[nodiscard]] Pose look_at(const Vec3& position, const Vec3& target);
 
 /// The angle of the rotation between two orientations, in radians.

@@ -9,8 +9,8 @@ namespace vantage {
 /// The lattice of the scene and the one home of point-to-voxel arithmetic: voxel i covers
 /// [min + i*length, min + (i+1)*length) on each axis. Indices outside 0..size-1 are meaningful: the lattice goes on.
 struct Grid {
-  Vec3 min = Vec3::Zero();   // corner of voxel (0,0,0), metres
-  double length = 0.02;      // edge of a voxel, metres
+  Vec3 min = Vec3::Zero();  // corner of voxel (0,0,0), metres
+  double length = 0.02;     // edge of a voxel, metres
   Index3 size = Index3::Zero();
 
   /// Position of lattice plane k on an axis: the lower face of voxel k. Every path computes it by this expression.
@@ -44,9 +44,9 @@ struct Grid {
 /// A scene of `scene_size` voxels centred at `center` with the object enclosure in its middle.
 struct SceneOptions {
   Vec3 center = Vec3::Zero();
-  double voxel_length = 0.02;                      // metres
-  Index3 scene_size = Index3::Constant(205);       // voxels
-  Index3 enclosure_size = Index3::Constant(55);    // voxels; the parity of both sizes should agree
+  double voxel_length = 0.02;                    // metres
+  Index3 scene_size = Index3::Constant(205);     // voxels
+  Index3 enclosure_size = Index3::Constant(55);  // voxels; the parity of both sizes should agree
 
   void validate() const;
   [[nodiscard]] Grid grid() const;

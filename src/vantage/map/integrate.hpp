@@ -14,9 +14,9 @@ struct IntegrationReport {
 };
 
 /// Updates the labels with one scan (paper, section 4; spec, section 1), in passes over the whole scan: voxels of hits
-/// become occupied; voxels that a ray crosses before its end become empty; unmarked voxels behind a hit become occluded;
-/// occplane follows. "Before" and "behind" are told by the steps from the camera's voxel, which grow by one per crossing.
-/// This is the definition: exact rays through all voxels. Also serves sensors without a pinhole.
+/// become occupied; voxels that a ray crosses before its end become empty; unmarked voxels behind a hit become
+/// occluded; occplane follows. "Before" and "behind" are told by the steps from the camera's voxel, which grow by one
+/// per crossing. This is the definition: exact rays through all voxels. Also serves sensors without a pinhole.
 IntegrationReport integrate_exactly(VoxelMap& map, std::span<const SightLine> lines);
 
 /// The same map for a pinhole range image by the fast path.

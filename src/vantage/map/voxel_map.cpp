@@ -35,7 +35,8 @@ VoxelMap::VoxelMap(const Grid& grid, const IndexBox& enclosure) : grid_(grid), e
           grid.size.transpose(), " voxels");
   const Eigen::Matrix<std::int64_t, 3, 1> sides = enclosure.size().cast<std::int64_t>();
   require(sides.prod() <= max_enclosure_voxels, "enclosure of ", sides.transpose(), " voxels (", sides.prod(),
-          ") does not fit in memory; must be at most ", max_enclosure_voxels, " voxels: use longer voxels or a smaller box");
+          ") does not fit in memory; must be at most ", max_enclosure_voxels,
+          " voxels: use longer voxels or a smaller box");
   layout_.size = enclosure.size();
   layout_.words_per_row = (layout_.size.x() + 63) / 64;
   for (BitPlane* plane : {&occupied_, &empty_, &hidden_, &occplane_}) plane->words.assign(layout_.words(), 0);
@@ -151,10 +152,9 @@ void VoxelMap::update_occplane() {
           continue;
         }
         const std::uint64_t here = empty_word(w, y, z);
-        const std::uint64_t empty_neighbours = (here >> 1U | empty_word(w + 1, y, z) << 63U) |
-                                               (here << 1U | empty_word(w - 1, y, z) >> 63U) | empty_word(w, y - 1, z) |
-                                               empty_word(w, y + 1, z) | empty_word(w, y, z - 1) |
-                                               empty_word(w, y, z + 1);
+        const std::uint64_t empty_neighbours =
+            (here >> 1U | empty_word(w + 1, y, z) << 63U) | (here << 1U | empty_word(w - 1, y, z) >> 63U) |
+            empty_word(w, y - 1, z) | empty_word(w, y + 1, z) | empty_word(w, y, z - 1) | empty_word(w, y, z + 1);
         occplane_.words[word] = hidden & empty_neighbours;
       }
     }

@@ -50,8 +50,8 @@ struct BitLayout {
   }
 };
 
-/// The scene with five labels per voxel (paper, section 4). Only the object enclosure is stored: everything outside it is
-/// empty for ever. At the start the enclosure is unmarked.
+/// The scene with five labels per voxel (paper, section 4). Only the object enclosure is stored: everything outside it
+/// is empty for ever. At the start the enclosure is unmarked.
 class VoxelMap {
  public:
   /// Throws InputError where the enclosure does not lie in the grid or does not fit in memory.
@@ -85,14 +85,16 @@ class VoxelMap {
   /// All occupied voxels, x fastest. Scene indices.
   [[nodiscard]] std::vector<Index3> occupied_voxels() const;
 
-  // The storage, for the fast paths. Planes: occupied, empty, hidden (occluded or occplane), occplane; no bit: unmarked.
+  // The storage, for the fast paths. Planes: occupied, empty, hidden (occluded or occplane), occplane; no bit:
+  // unmarked.
   [[nodiscard]] const BitLayout& layout() const { return layout_; }
   [[nodiscard]] const BitPlane& occupied() const { return occupied_; }
   [[nodiscard]] const BitPlane& empty() const { return empty_; }
   [[nodiscard]] const BitPlane& hidden() const { return hidden_; }
   [[nodiscard]] const BitPlane& occplane() const { return occplane_; }
-  /// For one word of a row: `emptied` voxels become empty and `occluded` ones occluded where they were unmarked. Occupied
-  /// voxels never change. Call update_occplane() after the last word. Safe for different words at the same time.
+  /// For one word of a row: `emptied` voxels become empty and `occluded` ones occluded where they were unmarked.
+  /// Occupied voxels never change. Call update_occplane() after the last word. Safe for different words at the same
+  /// time.
   void carve_word(std::size_t word, std::uint64_t emptied, std::uint64_t occluded);
 
  private:

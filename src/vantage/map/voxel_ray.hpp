@@ -7,17 +7,18 @@
 
 namespace vantage {
 
-/// A ray in the lattice of a grid. The ray passes voxels in the order of its crossings with lattice planes; crossings are
-/// ordered by (t, axis), so that where it meets an edge or a corner it crosses the x plane first, then y, then z. That is
-/// the one tie rule of the project: a voxel is on the ray iff the last of its three entering crossings comes before the
-/// first of its three leaving ones. t is in units of the direction's length (depth for the rays of a camera).
+/// A ray in the lattice of a grid. The ray passes voxels in the order of its crossings with lattice planes; crossings
+/// are ordered by (t, axis), so that where it meets an edge or a corner it crosses the x plane first, then y, then z.
+/// That is the one tie rule of the project: a voxel is on the ray iff the last of its three entering crossings comes
+/// before the first of its three leaving ones. t is in units of the direction's length (depth for the rays of a
+/// camera).
 struct LatticeRay {
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   Vec3 origin;
   Vec3 direction;
-  Vec3 inverse;                 // 1/direction, 0 on axes along which the ray does not move
-  std::array<int, 3> step{};    // -1, 0, +1
+  Vec3 inverse;               // 1/direction, 0 on axes along which the ray does not move
+  std::array<int, 3> step{};  // -1, 0, +1
   Index3 origin_cell;
 
   LatticeRay(const Grid& grid, const Vec3& ray_origin, const Vec3& ray_direction)
@@ -60,7 +61,7 @@ void visit_voxels(const Grid& grid, const IndexBox& box, const LatticeRay& ray, 
     } else if (distance > 0) {
       const Crossing entry{ray.enter(grid, a, first), a};
       if (entry > start) start = entry;
-    } 
+    }
   }
   if (!(start.t < LatticeRay::never)) return;
 

@@ -22,7 +22,9 @@ TEST(VoxelRay, TraversalAndClosedFormAgree) {
     const Grid grid{Vec3(-1, -1, -1), random.uniform() < 0.5 ? 0.25 : 0.23, Index3(8, 8, 8)};
     const IndexBox box{Index3(1, 0, 2), Index3(6, 7, 5)};
     const Vec3 origin(awkward(random, 3), awkward(random, 3), awkward(random, 3));
-    Vec3 direction(awkward(random, 1), awkward(random, 1), awkward(random, 1));
+    const Vec3 target(awkward(random, 1), awkward(random, 1), awkward(random, 1));
+    const bool aimed = random.uniform() < 0.8;
+    Vec3 direction = aimed ? Vec3(target - origin) : target;
     if (direction.isZero(0)) direction = Vec3::UnitX();
     const double near = random.uniform() < 0.5 ? 0 : random.uniform(0, 2);
     const double far = near + random.uniform(0.1, 6);

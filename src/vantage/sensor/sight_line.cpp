@@ -17,8 +17,8 @@ void set_surface(SightLine& line, const Vec3& normal, const Vec3& axis, QualityR
 
 std::vector<SightLine> sight_lines(const RangeImage& image, std::span<const Vec3f> normals_in_sensor, const View& view,
                                    QualityReference reference) {
-  require(normals_in_sensor.empty() || normals_in_sensor.size() == image.depth.size(), "sight lines: ",
-          normals_in_sensor.size(), " normals for ", image.depth.size(), " pixels");
+  require(normals_in_sensor.empty() || normals_in_sensor.size() == image.depth.size(),
+          "sight lines: ", normals_in_sensor.size(), " normals for ", image.depth.size(), " pixels");
   const RayGrid rays = image.camera.rays();
   const Mat3 rotation = view.world_from_sensor.linear();
   std::vector<SightLine> lines;

@@ -15,11 +15,11 @@ struct UtilityOptions {
 
 /// The factors of a view's utility (paper, section 5).
 struct Factors {
-  double x_oc = 0, x_op = 0;   // shares among n_oc + n_op + n_um
-  double f_area = 0;           // eq. 7
-  double f_navigation = 0;     // eq. 10
-  double f_quality = 0;        // eq. 11
-  double f_occlusion = 0;      // eq. 12
+  double x_oc = 0, x_op = 0;  // shares among n_oc + n_op + n_um
+  double f_area = 0;          // eq. 7
+  double f_navigation = 0;    // eq. 10
+  double f_quality = 0;       // eq. 11
+  double f_occlusion = 0;     // eq. 12
 };
 
 /// Eqs 4-6: 1 where the share x equals the desired one, 0 at both ends. For alpha = 0 or 1 the branch that remains.

@@ -14,11 +14,11 @@ namespace vantage {
 /// What a view would see (paper, section 4.2): numbers of distinct voxels that end at least one ray.
 struct Visibility {
   std::int64_t rays = 0;
-  std::int32_t occupied = 0;   // n_oc
-  std::int32_t occplane = 0;   // n_op
-  std::int32_t unmarked = 0;   // n_um
-  std::int32_t occluded = 0;   // occluded but not occplane; counts in nothing
-  std::int64_t cosine_sum = 0; // sum of max(0, -axis.normal) over the visible occupied voxels, fixed point
+  std::int32_t occupied = 0;    // n_oc
+  std::int32_t occplane = 0;    // n_op
+  std::int32_t unmarked = 0;    // n_um
+  std::int32_t occluded = 0;    // occluded but not occplane; counts in nothing
+  std::int64_t cosine_sum = 0;  // sum of max(0, -axis.normal) over the visible occupied voxels, fixed point
 
   bool operator==(const Visibility&) const = default;
 };
@@ -26,15 +26,15 @@ struct Visibility {
 /// Adds one visible voxel to the counts of a view that looks along `axis`.
 void count_voxel(Visibility& seen, const VoxelMap& map, const Index3& voxel, const Vec3& axis);
 
-/// The voxels that a view sees, by exact rays through all voxels (spec, section 3): the definition that every fast path is
-/// tested against. Sorted with x fastest; an occupied voxel beyond the incidence limit ends rays and is left out.
+/// The voxels that a view sees, by exact rays through all voxels (spec, section 3): the definition that every fast path
+/// is tested against. Sorted with x fastest; an occupied voxel beyond the incidence limit ends rays and is left out.
 [[nodiscard]] std::vector<Index3> visible_voxels_exactly(const VoxelMap& map, const RangeCamera& camera,
                                                          const View& view, Resolution resolution);
 [[nodiscard]] Visibility see_exactly(const VoxelMap& map, const RangeCamera& camera, const View& view,
                                      Resolution resolution);
 
-/// The same by Bresenham lines from the sensor's voxel to the end of the ray, as in the paper. Misses voxels that the exact
-/// ray crosses; kept for fidelity and as the benchmark's baseline.
+/// The same by Bresenham lines from the sensor's voxel to the end of the ray, as in the paper. Misses voxels that the
+/// exact ray crosses; kept for fidelity and as the benchmark's baseline.
 [[nodiscard]] Visibility see_by_bresenham(const VoxelMap& map, const RangeCamera& camera, const View& view,
                                           Resolution resolution);
 

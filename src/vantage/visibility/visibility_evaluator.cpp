@@ -13,9 +13,8 @@ std::vector<Visibility> VisibilityEvaluator::see(const RangeCamera& camera, std:
   require(resolutions.size() == 1 || resolutions.size() == views.size(), "see: ", resolutions.size(),
           " resolutions for ", views.size(), " views; must be one, or one per view");
   std::vector<Visibility> seen(views.size());
-  parallel_for(views.size(), [&](std::size_t i) {
-    seen[i] = see(camera, views[i], resolutions[resolutions.size() == 1 ? 0 : i]);
-  });
+  parallel_for(views.size(),
+               [&](std::size_t i) { seen[i] = see(camera, views[i], resolutions[resolutions.size() == 1 ? 0 : i]); });
   return seen;
 }
 
