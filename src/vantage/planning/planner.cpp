@@ -1,0 +1,122 @@
+#include "vantage/planning/planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+double per_cent(double share) { return std::round(1000 * share) / 10; }
+
+bool meets_occplane(const std::vector<Evaluation>& evaluations, int at_most) {
+  return std::any_of(evaluations.begin(), evaluations.end(),
+                     [at_most](const Evaluation& e) { return e.seen.occplane > at_most; });
+}
+
+std::string explain(const Evaluation& best, std::size_t rivals, double angle) {
+  return concat("best of ", rivals, ": meets ", best.seen.occplane, " occplane voxels (", per_cent(best.factors.x_op),
+                " % of what it sees), overlaps with ", best.seen.occupied, " occupied ones (",
+                per_cent(best.factors.x_oc), " %), ", std::round(degrees(angle)), " degrees from here");
+}
+
+}  // namespace
+
+void PlannerOptions::validate() const {
+  rays.validate();
+  multi_resolution.validate();
+  factors.validate();
+  reach.validate();
+  require(stop_occplane >= 0, "stop-occplane = ", stop_occplane, ": must not be negative");
+  (void)utility_by_name(utility);
+}
+
+std::vector<std::string> utility_names() { return {"combined", "gua"}; }
+
+Utility utility_by_name(const std::string& name) {
+  if (name == "combined") return [](const Visibility&, const Factors& f) { return combined_utility(f); };
+  if (name == "gua") return [](const Visibility&, const Factors& f) { return gua_utility(f); };
+  std::string known;
+  for (const std::string& each : utility_names()) known += (known.empty() ? "" : ", ") + each;
+  throw InputError(concat("utility '", name, "' is unknown; must be one of: ", known));
+}
+
+Planner::Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options)
+    : candidates_(std::move(candidates)),
+      camera_(camera),
+      options_(options),
+      utility_(utility_by_name(options.utility)) {
+  camera_.validate();
+  options_.validate();
+  require(!candidates_.views.empty(), "candidates: there are none");
+  // The navigation factor is made for a sphere (spec, section 4).
+  if (candidates_.kind == Candidates::Kind::grid) options_.factors.navigation = false;
+}
+
+Travel Planner::travel() const {
+  Travel travel;
+  travel.center = candidates_.center;
+  if (candidates_.kind == Candidates::Kind::sphere) {
+    travel.path = Travel::Path::orthodromic;
+    travel.radius = (candidates_.views.front().position() - candidates_.center).norm();
+  }
+  return travel;
+}
+
+std::optional<std::string> Planner::why_excluded(const VoxelMap& map, int candidate) const {
+  if (const auto found = discarded_.find(candidate); found != discarded_.end()) return found->second;
+  if (const auto found = set_aside_.find(candidate); found != set_aside_.end()) return found->second;
+  return why_infeasible(map, candidates_.views[static_cast<std::size_t>(candidate)], options_.reach);
+}
+
+std::vector<Evaluation> Planner::search(const ViewEvaluation& problem, const std::vector<int>& feasible) const {
+  if (options_.search == SearchKind::exhaustive) return exhaustive_search(problem, feasible, options_.rays);
+  std::vector<Evaluation> ranking = multi_resolution_search(problem, feasible, options_.multi_resolution);
+  if (meets_occplane(ranking, options_.stop_occplane)) return ranking;
+  // The coarse stages overlook single voxels: ask all views before concluding that nothing is left (spec, section 5).
+  return exhaustive_search(problem, feasible, {RayChoice::Kind::ideal, {}});
+}
+
+std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& current) {
+  Plan plan;
+  std::vector<int> feasible;
+  for (int i = 0; i < static_cast<int>(candidates_.views.size()); ++i) {
+    if (const auto reason = why_excluded(map, i)) {
+      Evaluation excluded;
+      excluded.candidate = i;
+      excluded.view = candidates_.views[static_cast<std::size_t>(i)];
+      excluded.feasible = false;
+      excluded.reason = *reason;
+      plan.infeasible.push_back(std::move(excluded));
+    } else {
+      feasible.push_back(i);
+    }
+  }
+  if (feasible.empty()) {
+    why_finished_ = concat("none of the ", candidates_.views.size(),
+                           " candidate views is feasible (the first: ", plan.infeasible.front().reason, ")");
+    return std::nullopt;
+  }
+
+  const VisibilityEvaluator visibility(map);
+  const ViewEvaluation problem{visibility, camera_, candidates_,      map.grid().length,
+                               travel(),   current, options_.factors, utility_};
+  plan.ranking = search(problem, feasible);
+  if (!meets_occplane(plan.ranking, options_.stop_occplane)) {
+    why_finished_ = options_.stop_occplane == 0
+                        ? "no feasible view meets an occplane voxel any more"
+                        : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
+    return std::nullopt;
+  }
+  plan.best = plan.ranking.front();
+  plan.explanation = explain(plan.best, plan.ranking.size(),
+                             angle_seen_from(candidates_.center, current.position(), plan.best.view.position()));
+  why_finished_.clear();
+  return plan;
+}
+
+void Planner::discard(int candidate, const std::string& reason) { discarded_[candidate] = reason; }
+void Planner::set_aside(int candidate, const std::string& reason) { set_aside_[candidate] = reason; }
+
+}  // namespace vantage

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/robot/reach.hpp"
+#include "vantage/search/search.hpp"
+
+namespace vantage {
+
+enum class SearchKind { exhaustive, multi_resolution };
+
+struct PlannerOptions {
+  SearchKind search = SearchKind::exhaustive;
+  RayChoice rays;  // of the exhaustive search
+  MultiResolutionOptions multi_resolution;
+  std::string utility = "combined";  // see utility_by_name
+  UtilityOptions factors;
+  ReachOptions reach;
+  int stop_occplane = 0;  // stop when no feasible view sees more occplane voxels than this
+
+  void validate() const;
+};
+
+/// `combined` (eq. 13) or `gua` (eq. 21). Throws InputError that lists the names.
+[[nodiscard]] Utility utility_by_name(const std::string& name);
+[[nodiscard]] std::vector<std::string> utility_names();
+
+/// The next best view with all that led to it.
+struct Plan {
+  Evaluation best;
+  std::vector<Evaluation> ranking;     // views that were evaluated to the end, best first
+  std::vector<Evaluation> infeasible;  // candidates that fell out, with the reason
+  std::string explanation;             // one sentence for people
+};
+
+/// Plans one view after the other (paper, sections 3 to 6): feasible, evaluate, rank, explain.
+class Planner {
+ public:
+  Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options = {});
+
+  /// The best view to take next from `current`, or nothing where no feasible view meets an occplane voxel any more;
+  /// why_finished() then says so.
+  [[nodiscard]] std::optional<Plan> next_best_view(const VoxelMap& map, const View& current);
+  /// The robot cannot reach this candidate: it is not planned again.
+  void discard(int candidate, const std::string& reason);
+  /// This candidate's scan could not be used: it is not planned again until the map changes.
+  void set_aside(int candidate, const std::string& reason);
+  void map_changed() { set_aside_.clear(); }
+
+  [[nodiscard]] const std::string& why_finished() const { return why_finished_; }
+  [[nodiscard]] const Candidates& candidates() const { return candidates_; }
+  [[nodiscard]] const RangeCamera& camera() const { return camera_; }
+  [[nodiscard]] const PlannerOptions& options() const { return options_; }
+  /// How the length of moves between the candidates is counted: orthodromic on a sphere, straight elsewhere.
+  [[nodiscard]] Travel travel() const;
+
+ private:
+  [[nodiscard]] std::optional<std::string> why_excluded(const VoxelMap& map, int candidate) const;
+  [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible) const;
+
+  Candidates candidates_;
+  RangeCamera camera_;
+  PlannerOptions options_;
+  Utility utility_;
+  std::map<int, std::string> discarded_, set_aside_;
+  std::string why_finished_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,72 @@
+#include "vantage/search/search.hpp"
+
+#include <algorithm>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+
+void RayChoice::validate() const {
+  if (kind != Kind::fixed) return;
+  require(resolution.columns > 0 && resolution.rows > 0, "rays = ", resolution.columns, "x", resolution.rows,
+          ": must be `sensor`, `ideal` or a positive number of columns and rows such as 79x79");
+}
+
+Resolution ViewEvaluation::ideal(int candidate) const {
+  const Vec3 position = candidates.views[static_cast<std::size_t>(candidate)].position();
+  return ideal_resolution(camera, voxel_length, (position - candidates.center).norm());
+}
+
+Resolution ViewEvaluation::resolution(int candidate, const RayChoice& rays) const {
+  switch (rays.kind) {
+    case RayChoice::Kind::ideal:
+      return ideal(candidate);
+    case RayChoice::Kind::fixed:
+      return rays.resolution;
+    case RayChoice::Kind::sensor:
+      break;
+  }
+  return camera.resolution;
+}
+
+std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_indices,
+                                                 std::span<const Resolution> resolutions) const {
+  std::vector<View> views;
+  views.reserve(candidate_indices.size());
+  for (const int index : candidate_indices) views.push_back(candidates.views[static_cast<std::size_t>(index)]);
+  const std::vector<Visibility> seen = visibility.see(camera, views, resolutions);
+
+  std::vector<Evaluation> evaluations(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    Evaluation& evaluation = evaluations[i];
+    evaluation.candidate = candidate_indices[i];
+    evaluation.view = views[i];
+    evaluation.resolution = resolutions[resolutions.size() == 1 ? 0 : i];
+    evaluation.seen = seen[i];
+    evaluation.factors = factors(seen[i], travel.normalised(current.position(), views[i].position()), options);
+    evaluation.utility = utility(evaluation.seen, evaluation.factors);
+  }
+  return evaluations;
+}
+
+void rank(std::vector<Evaluation>& evaluations) {
+  const bool any_utility =
+      std::any_of(evaluations.begin(), evaluations.end(), [](const Evaluation& e) { return e.utility > 0; });
+  std::sort(evaluations.begin(), evaluations.end(), [any_utility](const Evaluation& a, const Evaluation& b) {
+    if (any_utility && a.utility != b.utility) return a.utility > b.utility;
+    if (!any_utility && a.seen.occplane != b.seen.occplane) return a.seen.occplane > b.seen.occplane;
+    return a.candidate < b.candidate;
+  });
+}
+
+std::vector<Evaluation> exhaustive_search(const ViewEvaluation& problem, std::span<const int> feasible,
+                                          const RayChoice& rays) {
+  std::vector<Resolution> resolutions;
+  resolutions.reserve(feasible.size());
+  for (const int candidate : feasible) resolutions.push_back(problem.resolution(candidate, rays));
+  std::vector<Evaluation> evaluations = problem.evaluate(feasible, resolutions);
+  rank(evaluations);
+  return evaluations;
+}
+
+}  // namespace vantage

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/candidates/candidates.hpp"
+#include "vantage/robot/travel.hpp"
+#include "vantage/utility/factors.hpp"
+#include "vantage/visibility/visibility.hpp"
+
+namespace vantage {
+
+/// How good a view is, from what it would see. Called once per view.
+using Utility = std::function<double(const Visibility&, const Factors&)>;
+
+/// Which rays a view is evaluated with.
+struct RayChoice {
+  enum class Kind { sensor, ideal, fixed };
+  Kind kind = Kind::sensor;
+  Resolution resolution;  // for `fixed`
+
+  void validate() const;
+};
+
+/// One candidate view with all that was found out about it.
+struct Evaluation {
+  int candidate = -1;
+  View view;
+  bool feasible = true;
+  std::string reason;     // why it is infeasible
+  Resolution resolution;  // of the rays it was evaluated with; 0x0: not evaluated
+  Visibility seen;
+  Factors factors;
+  double utility = 0;
+
+  [[nodiscard]] bool evaluated() const { return resolution.rays() > 0; }
+};
+
+/// All that the evaluation of views at one moment needs.
+struct ViewEvaluation {
+  const VisibilityEvaluator& visibility;
+  const RangeCamera& camera;
+  const Candidates& candidates;
+  double voxel_length;
+  Travel travel;
+  View current;
+  UtilityOptions options;
+  Utility utility;
+
+  /// The ideal resolution of a candidate (eq. 14), from its distance to the center.
+  [[nodiscard]] Resolution ideal(int candidate) const;
+  [[nodiscard]] Resolution resolution(int candidate, const RayChoice& rays) const;
+  /// Evaluates the given candidates, each with its own resolution, in parallel.
+  [[nodiscard]] std::vector<Evaluation> evaluate(std::span<const int> candidate_indices,
+                                                 std::span<const Resolution> resolutions) const;
+};
+
+/// Descending utility, ties by the lower candidate; where no utility is above 0, descending n_op (spec, section 4).
+void rank(std::vector<Evaluation>& evaluations);
+
+/// Every feasible candidate with the same kind of rays, ranked.
+[[nodiscard]] std::vector<Evaluation> exhaustive_search(const ViewEvaluation& problem, std::span<const int> feasible,
+                                                        const RayChoice& rays);
+
+struct MultiResolutionOptions {
+  int b = 10;                 // eq. 16
+  std::optional<int> stages;  // k; by default the smallest with b^k >= |V|
+  int min_columns = 40;       // R_min
+
+  void validate() const;
+};
+
+/// k of Algorithm 2: the smallest k >= 1 with b^k >= `views`.
+[[nodiscard]] int number_of_stages(int views, int b);
+/// R_i, eq. 15, for stage i = 1..k.
+[[nodiscard]] Resolution stage_resolution(Resolution ideal, int min_columns, int stage, int stages);
+
+/// Algorithm 2: the views of the last stage, ranked.
+[[nodiscard]] std::vector<Evaluation> multi_resolution_search(const ViewEvaluation& problem,
+                                                              std::span<const int> feasible,
+                                                              const MultiResolutionOptions& options);
+
+}  // namespace vantage
