@@ -1,0 +1,122 @@
+#include "vantage/planning/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+SceneOptions small_scene() {
+  SceneOptions scene;
+  scene.voxel_length = 0.1;
+  scene.scene_size = Index3::Constant(41);
+  scene.enclosure_size = Index3::Constant(11);
+  return scene;
+}
+
+/// Everything empty but one hidden voxel at the given place.
+VoxelMap map_with_hidden_voxel(const Index3& hidden) {
+  VoxelMap map(small_scene());
+  const IndexBox box = map.enclosure();
+  for (int z = box.min.z(); z <= box.max.z(); ++z) {
+    for (int y = box.min.y(); y <= box.max.y(); ++y) {
+      for (int x = box.min.x(); x <= box.max.x(); ++x) map.set_label({x, y, z}, Label::empty);
+    }
+  }
+  map.set_label(hidden, Label::occluded);
+  map.update_occplane();
+  return map;
+}
+
+const RangeCamera camera = camera_from_apertures(radians(45), radians(45), {80, 80});
+
+TEST(Planner, ChoosesByOccplaneVoxelsWhereAllUtilitiesAreZero) {
+  // A single occplane voxel and nothing else: x_op = 1, so that f_area = 0 everywhere.
+  Planner planner(view_sphere(20, 2, Vec3::Zero()), camera);
+  const VoxelMap map = map_with_hidden_voxel({20, 20, 20});
+  const auto plan = planner.next_best_view(map, planner.candidates().views[3]);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->best.utility, 0);
+  EXPECT_EQ(plan->best.seen.occplane, 1);
+  EXPECT_EQ(plan->best.candidate, 0) << "ties fall to the lowest index";
+}
+
+TEST(Planner, FinishesWhenNoOccplaneVoxelIsMet) {
+  Planner planner(view_sphere(20, 2, Vec3::Zero()), camera);
+  VoxelMap map = map_with_hidden_voxel({20, 20, 20});
+  map.set_label({20, 20, 20}, Label::empty);
+  EXPECT_FALSE(planner.next_best_view(map, planner.candidates().views[0]));
+  EXPECT_EQ(planner.why_finished(), "no feasible view meets an occplane voxel any more");
+}
+
+TEST(Planner, ToleratesSomeOccplaneVoxelsWhereAsked) {
+  PlannerOptions options;
+  options.stop_occplane = 1;
+  Planner planner(view_sphere(20, 2, Vec3::Zero()), camera, options);
+  EXPECT_FALSE(planner.next_best_view(map_with_hidden_voxel({20, 20, 20}), planner.candidates().views[0]));
+  EXPECT_EQ(planner.why_finished(), "no feasible view meets more than 1 occplane voxels");
+}
+
+TEST(Planner, MultiResolutionFindsTheSingleVoxelThatItsCoarseStagesMiss) {
+  SceneOptions scene;
+  VoxelMap map(scene);
+  for (int z = 75; z <= 129; ++z) {
+    for (int y = 75; y <= 129; ++y) {
+      for (int x = 75; x <= 129; ++x) map.set_label({x, y, z}, Label::empty);
+    }
+  }
+  map.set_label({101, 104, 97}, Label::occluded);
+  map.update_occplane();
+  PlannerOptions options;
+  options.search = SearchKind::multi_resolution;
+  options.multi_resolution.min_columns = 2;  // four rays a view, all of which miss it
+  Planner planner(view_sphere(80, 2, Vec3::Zero()), camera_from_apertures(radians(45), radians(45), {320, 320}),
+                  options);
+  const auto plan = planner.next_best_view(map, planner.candidates().views[0]);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->best.seen.occplane, 1);
+  EXPECT_EQ(plan->ranking.size(), 80U) << "all views were asked again";
+}
+
+TEST(Planner, PlansTheNextInRankAfterAViewWasDiscarded) {
+  Planner planner(view_sphere(20, 2, Vec3::Zero()), camera);
+  const VoxelMap map(small_scene());
+  const View& current = planner.candidates().views[0];
+  VoxelMap with_hidden = map_with_hidden_voxel({20, 20, 20});
+  const auto first = planner.next_best_view(with_hidden, current);
+  ASSERT_TRUE(first);
+  planner.discard(first->best.candidate, "a cable is in the way");
+  const auto second = planner.next_best_view(with_hidden, current);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->best.candidate, first->ranking[1].candidate);
+  ASSERT_EQ(second->infeasible.size(), 1U);
+  EXPECT_EQ(second->infeasible[0].reason, "a cable is in the way");
+}
+
+TEST(Planner, ForgetsViewsSetAsideWhenTheMapChanges) {
+  Planner planner(view_sphere(20, 2, Vec3::Zero()), camera);
+  const VoxelMap map = map_with_hidden_voxel({20, 20, 20});
+  planner.set_aside(0, "its scan could not be registered");
+  EXPECT_EQ(planner.next_best_view(map, planner.candidates().views[5])->best.candidate, 1);
+  planner.map_changed();
+  EXPECT_EQ(planner.next_best_view(map, planner.candidates().views[5])->best.candidate, 0);
+}
+
+TEST(Planner, SaysWhyNoViewIsFeasible) {
+  PlannerOptions options;
+  options.reach.workspace = Box3(Vec3(10, 10, 10), Vec3(11, 11, 11));
+  Planner planner(view_sphere(20, 2, Vec3::Zero()), camera, options);
+  EXPECT_FALSE(planner.next_best_view(VoxelMap(small_scene()), view_towards({1, 2, 2}, Vec3::Zero())));
+  EXPECT_EQ(planner.why_finished(), "none of the 20 candidate views is feasible (the first: outside the workspace)");
+}
+
+TEST(Planner, NamesUnknownUtilities) {
+  EXPECT_THROW((void)utility_by_name("best"), InputError);
+  PlannerOptions options;
+  options.utility = "best";
+  EXPECT_THROW(Planner(view_sphere(20, 2, Vec3::Zero()), camera, options), InputError);
+}
+
+}  // namespace
+}  // namespace vantage
