@@ -58,25 +58,41 @@ TEST(Planner, ToleratesSomeOccplaneVoxelsWhereAsked) {
   EXPECT_EQ(planner.why_finished(), "no feasible view meets more than 1 occplane voxels");
 }
 
-TEST(Planner, MultiResolutionFindsTheSingleVoxelThatItsCoarseStagesMiss) {
-  SceneOptions scene;
-  VoxelMap map(scene);
+/// An occplane voxel at the bottom of a well of occupied voxels that opens along +z; all else is empty.
+VoxelMap map_with_well() {
+  VoxelMap map{SceneOptions{}};
+  const Index3 bottom(102, 102, 110);
   for (int z = 75; z <= 129; ++z) {
     for (int y = 75; y <= 129; ++y) {
-      for (int x = 75; x <= 129; ++x) map.set_label({x, y, z}, Label::empty);
+      for (int x = 75; x <= 129; ++x) {
+        const Index3 from_bottom = Index3(x, y, z) - bottom;
+        const bool on_axis = from_bottom.x() == 0 && from_bottom.y() == 0;
+        const bool in_wall = from_bottom.head<2>().cwiseAbs().maxCoeff() <= 1 && from_bottom.z() >= -1 &&
+                             from_bottom.z() <= 1 && !(on_axis && from_bottom.z() >= 0);
+        map.set_label({x, y, z}, in_wall ? Label::occupied : Label::empty);
+      }
     }
   }
-  map.set_label({101, 104, 97}, Label::occluded);
+  map.set_label(bottom, Label::occluded);
   map.update_occplane();
+  return map;
+}
+
+TEST(Planner, MultiResolutionFindsTheSingleVoxelThatItsCoarseStagesMiss) {
+  const VoxelMap map = map_with_well();
+  const Candidates candidates = view_sphere(80, 2, Vec3::Zero());
   PlannerOptions options;
   options.search = SearchKind::multi_resolution;
   options.multi_resolution.min_columns = 2;  // four rays a view, all of which miss it
-  Planner planner(view_sphere(80, 2, Vec3::Zero()), camera_from_apertures(radians(45), radians(45), {320, 320}),
-                  options);
-  const auto plan = planner.next_best_view(map, planner.candidates().views[0]);
+  Planner planner(candidates, camera_from_apertures(radians(45), radians(45), {320, 320}), options);
+  // The coarse stage sees nothing, so that it keeps the first ten candidates: the premise is that these are blind.
+  for (std::size_t i = 0; i < 10; ++i) {
+    ASSERT_EQ(see_exactly(map, planner.camera(), candidates.views[i], {79, 79}).occplane, 0) << "candidate " << i;
+  }
+  const auto plan = planner.next_best_view(map, candidates.views[0]);
   ASSERT_TRUE(plan);
-  EXPECT_EQ(plan->best.seen.occplane, 1);
   EXPECT_EQ(plan->ranking.size(), 80U) << "all views were asked again";
+  EXPECT_GT(plan->ranking[0].utility + plan->ranking[0].seen.occplane, 0);
 }
 
 TEST(Planner, PlansTheNextInRankAfterAViewWasDiscarded) {
