@@ -1,25 +1,25 @@
 # The layers above the planner and the command-line program.
 
-find_package(fmt REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(yaml-cpp REQUIRED)
-find_package(PNG REQUIRED)
-find_package(embree 3 REQUIRED)
 find_package(nanoflann REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(assimp REQUIRED)
-
 vantage_library(registration registration)
 target_link_libraries(vantage_registration PUBLIC vantage_core PRIVATE $<BUILD_INTERFACE:nanoflann::nanoflann>)
 
+vantage_require(simulation fmt)
+vantage_require(simulation embree 3)
 vantage_library(simulation simulation)
 target_link_libraries(vantage_simulation PUBLIC vantage_core PRIVATE embree fmt::fmt)
 
+vantage_require(full fmt)
+vantage_require(full nlohmann_json)
+vantage_require(full yaml-cpp)
+vantage_require(full PNG)
+vantage_require(full assimp)
 vantage_library(full reconstruction io experiments)
 target_link_libraries(vantage_full
   PUBLIC vantage_core vantage_registration vantage_simulation nlohmann_json::nlohmann_json
   PRIVATE fmt::fmt yaml-cpp PNG::PNG assimp::assimp)
 
+find_package(CLI11 REQUIRED)
 file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)
 list(FILTER vantage_app_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(vantage ${vantage_app_sources})

@@ -1,3 +1,30 @@
-# `cmake --install` gives a package that find_package(vantage) finds.
+# `cmake --install` gives a package that find_package(vantage COMPONENTS core registration simulation full) finds.
+# Only `core` is always there; each component brings the packages that vantage_require() noted for it and no others.
 include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/vantage)
+
 get_property(vantage_libraries GLOBAL PROPERTY VANTAGE_LIBRARIES)
+foreach(library IN LISTS vantage_libraries)
+  get_target_property(component ${library} EXPORT_NAME)
+  get_target_property(folders ${library} VANTAGE_FOLDERS)
+  install(TARGETS ${library} EXPORT vantage-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT vantage-${component} NAMESPACE vantage:: DESTINATION ${package_folder})
+  foreach(folder IN LISTS folders)
+    install(DIRECTORY src/vantage/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage
+            FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
+  get_property(required GLOBAL PROPERTY VANTAGE_REQUIRES_${component})
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/package/vantage-${component}-dependencies.cmake CONTENT "${required}" @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/package/vantage-${component}-dependencies.cmake DESTINATION ${package_folder})
+endforeach()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vantageConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/package/vantageConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/vantageConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/package/vantageConfig.cmake ${PROJECT_BINARY_DIR}/package/vantageConfigVersion.cmake
+  DESTINATION ${package_folder})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(VANTAGE_APPS)
+  install(TARGETS vantage)
+endif()

@@ -13,6 +13,14 @@ if(VANTAGE_SANITIZE)
   target_link_options(vantage_build_settings INTERFACE -fsanitize=${VANTAGE_SANITIZE})
 endif()
 
+# vantage_require(COMPONENT PACKAGE [ARGUMENTS...]): find_package for the library of that name, noted for those who use
+# the installed package.
+macro(vantage_require component)
+  find_package(${ARGN} REQUIRED)
+  string(REPLACE ";" " " arguments "${ARGN}")
+  set_property(GLOBAL APPEND_STRING PROPERTY VANTAGE_REQUIRES_${component} "find_dependency(${arguments})\n")
+endmacro()
+
 # vantage_library(NAME FOLDER...): the static library vantage::NAME from src/vantage/FOLDER/*.cpp, tests excluded.
 function(vantage_library name)
   set(sources)
@@ -23,7 +31,7 @@ function(vantage_library name)
   endforeach()
   add_library(vantage_${name} STATIC ${sources})
   add_library(vantage::${name} ALIAS vantage_${name})
-  set_target_properties(vantage_${name} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(vantage_${name} PROPERTIES EXPORT_NAME ${name} VANTAGE_FOLDERS "${ARGN}")
   target_compile_features(vantage_${name} PUBLIC cxx_std_20)
   target_include_directories(vantage_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

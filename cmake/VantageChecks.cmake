@@ -1,0 +1,30 @@
+# Checks of the project as a whole: its layers, its documents, and its use from other projects.
+
+# A sanitizer's runtime would have to be linked into the consumer, and changes nothing about the repository.
+if(VANTAGE_SANITIZE)
+  return()
+endif()
+
+find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+
+# vantage_check(NAME COMMAND...)
+function(vantage_check name)
+  add_test(NAME ${name} COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(${name} PROPERTIES LABELS checks TIMEOUT 600)
+endfunction()
+
+set(repository ${PROJECT_SOURCE_DIR}/tests/repository)
+set(python ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${Python3_EXECUTABLE})
+vantage_check(Repository.IncludesObeyTheLayers ${python} ${repository}/layers.py .)
+vantage_check(Repository.LayerCheckCatchesForbiddenIncludes ${python} ${repository}/layers_test.py)
+vantage_check(Repository.FilesAreShortAndFitAnyMachine ${python} ${repository}/repository.py .)
+vantage_check(Repository.FileCheckFindsWhatItShould ${python} ${repository}/repository_test.py)
+
+set(consumer ${CMAKE_COMMAND} -DCONSUMER=${PROJECT_SOURCE_DIR}/tests/consumer -DCXX=${CMAKE_CXX_COMPILER})
+set(check -P ${PROJECT_SOURCE_DIR}/tests/consumer/check.cmake)
+vantage_check(Consumer.FindsTheInstalledPackage ${consumer} -DBUILD=${PROJECT_BINARY_DIR}
+              -DWORK=${PROJECT_BINARY_DIR}/consumer/installed ${check})
+# Compiles the planner once more.
+vantage_check(Consumer.EmbedsTheSource ${consumer} -DSOURCE=${PROJECT_SOURCE_DIR}
+              -DWORK=${PROJECT_BINARY_DIR}/consumer/embedded ${check})
+set_tests_properties(Consumer.EmbedsTheSource PROPERTIES LABELS slow)

@@ -1,0 +1,92 @@
+"""Reads every #include of the library and tells which ones the architecture does not allow.
+
+layers.py ROOT: exit code 1 and one line per forbidden include.
+"""
+
+import pathlib
+import re
+import sys
+
+# What each folder builds on directly (ARCHITECTURE.md); whatever those build on is allowed too.
+BUILDS_ON = {
+    "core": [],
+    "sensor": ["core"],
+    "map": ["sensor"],
+    "candidates": ["sensor"],
+    "visibility": ["map"],
+    "robot": ["map"],
+    "registration": ["sensor"],
+    "utility": ["visibility", "robot"],
+    "simulation": ["map", "robot"],
+    "search": ["utility", "candidates"],
+    "planning": ["search"],
+    "reconstruction": ["planning", "registration"],
+    "io": ["reconstruction"],
+    "experiments": ["io", "simulation"],
+}
+
+# The library vantage::core: Eigen, oneTBB and the standard library, nothing else.
+CORE_FOLDERS = ["core", "sensor", "map", "candidates", "visibility", "robot", "utility", "search", "planning"]
+CORE_PACKAGES = ["Eigen", "tbb", "oneapi"]
+CORE_SYSTEM_HEADERS = ["immintrin.h", "cpuid.h"]  # vector instructions
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def allowed_folders(folder):
+    """The folder itself and all that it builds on, directly or not."""
+    allowed = {folder}
+    for below in BUILDS_ON[folder]:
+        allowed |= allowed_folders(below)
+    return allowed
+
+
+def why_forbidden(folder, header, is_test):
+    """Why a file of `folder` may not include `header`, or None where it may."""
+    parts = header.split("/")
+    if parts[0] == "vantage":
+        if len(parts) != 3 or parts[1] not in BUILDS_ON:
+            return "is not of the form vantage/FOLDER/FILE.hpp with a known folder"
+        if parts[1] not in allowed_folders(folder):
+            return f"{folder} may include only {', '.join(sorted(allowed_folders(folder)))}"
+        return None
+    if ".." in parts:
+        return "leaves its folder; write vantage/FOLDER/FILE.hpp"
+    if folder in CORE_FOLDERS and not is_test:
+        standard = len(parts) == 1 and ("." not in header or header in CORE_SYSTEM_HEADERS)
+        if not standard and parts[0] not in CORE_PACKAGES:
+            return "vantage::core needs only Eigen, oneTBB and the standard library"
+    return None
+
+
+def check(root):
+    """(messages, number of includes read) for the tree below `root`/src/vantage."""
+    messages, read = [], 0
+    library = pathlib.Path(root) / "src" / "vantage"
+    for file in sorted(library.rglob("*")):
+        if file.suffix not in (".hpp", ".cpp"):
+            continue
+        name = file.relative_to(root)
+        folder = file.relative_to(library).parts[0]
+        if folder not in BUILDS_ON or file.parent.parent != library:
+            messages.append(f"{name}: not in one of the folders that ARCHITECTURE.md lists")
+            continue
+        for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            read += 1
+            reason = why_forbidden(folder, match[2], file.name.endswith("_test.cpp"))
+            if reason:
+                messages.append(f"{name}:{number}: #include {match[2]}: {reason}")
+    return messages, read
+
+
+def main():
+    messages, read = check(pathlib.Path(sys.argv[1]))
+    print(*messages, f"{read} includes read, {len(messages)} forbidden", sep="\n")
+    return 1 if messages or read == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
