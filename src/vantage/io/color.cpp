@@ -1,0 +1,31 @@
+#include "vantage/io/color.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vantage {
+
+std::string css(const Color& value) {
+  const auto byte = [](double channel) { return static_cast<int>(std::lround(std::clamp(channel, 0.0, 1.0) * 255)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(value.red), byte(value.green), byte(value.blue));
+}
+
+Color mix(const Color& a, const Color& b, double share) {
+  return {a.red + (b.red - a.red) * share, a.green + (b.green - a.green) * share, a.blue + (b.blue - a.blue) * share};
+}
+
+Color sequential_color(double share) {
+  if (std::isnan(share)) return palette::no_value;
+  // Every eighth of the cividis scale.
+  constexpr std::array<Color, 9> stops{color(0x00224E), color(0x123570), color(0x3B496C),
+                                       color(0x575D6D), color(0x707173), color(0x8A8678),
+                                       color(0xA59C74), color(0xC3B369), color(0xFEE838)};
+  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+  return mix(stops[below], stops[below + 1], place - static_cast<double>(below));
+}
+
+}  // namespace vantage
