@@ -30,6 +30,12 @@ void PlannerOptions::validate() const {
   reach.validate();
   require(stop_occplane >= 0, "stop-occplane = ", stop_occplane, ": must not be negative");
   (void)utility_by_name(utility);
+  convolution.validate();
+  if (!expected_error) return;
+  expected_error->validate();
+  require(search == SearchKind::exhaustive,
+          "convolution after evaluation needs the utility of every view: use it with the exhaustive search, "
+          "not with multi-resolution, which evaluates only some views to the end");
 }
 
 std::vector<std::string> utility_names() { return {"combined", "gua"}; }
@@ -78,6 +84,14 @@ std::vector<Evaluation> Planner::search(const ViewEvaluation& problem, const std
   return exhaustive_search(problem, feasible, {RayChoice::Kind::ideal, {}});
 }
 
+void Planner::expect_errors(std::vector<Evaluation>& evaluations) const {
+  std::vector<double> utilities(candidates_.views.size(), 0.0);
+  for (const Evaluation& each : evaluations) utilities[static_cast<std::size_t>(each.candidate)] = each.utility;
+  const std::vector<double> expected = convolve(utilities, candidates_, *options_.expected_error, options_.convolution);
+  for (Evaluation& each : evaluations) each.score = expected[static_cast<std::size_t>(each.candidate)];
+  rank(evaluations);
+}
+
 std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& current) {
   Plan plan;
   std::vector<int> feasible;
@@ -109,6 +123,7 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
                         : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
     return std::nullopt;
   }
+  if (options_.expected_error) expect_errors(plan.ranking);
   plan.best = plan.ranking.front();
   plan.explanation = explain(plan.best, plan.ranking.size(),
                              angle_seen_from(candidates_.center, current.position(), plan.best.view.position()));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/robot/reach.hpp"
+#include "vantage/search/convolution.hpp"
 #include "vantage/search/search.hpp"
 
 namespace vantage {
@@ -19,6 +20,10 @@ struct PlannerOptions {
   std::string utility = "combined";  // see utility_by_name
   UtilityOptions factors;
   ReachOptions reach;
+  /// The error that convolution after evaluation expects of the robot (section 7); without it views are ranked as if
+  /// the robot were perfect. Needs the exhaustive search, which alone evaluates every view.
+  std::optional<PositioningError> expected_error;
+  ConvolutionOptions convolution;
   int stop_occplane = 0;  // stop when no feasible view sees more occplane voxels than this
 
   void validate() const;
@@ -60,6 +65,7 @@ class Planner {
  private:
   [[nodiscard]] std::optional<std::string> why_excluded(const VoxelMap& map, int candidate) const;
   [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible) const;
+  void expect_errors(std::vector<Evaluation>& evaluations) const;
 
   Candidates candidates_;
   RangeCamera camera_;

@@ -127,6 +127,34 @@ TEST(Planner, SaysWhyNoViewIsFeasible) {
   EXPECT_EQ(planner.why_finished(), "none of the 20 candidate views is feasible (the first: outside the workspace)");
 }
 
+TEST(Planner, RanksByTheUtilityExpectedUnderPositioningError) {
+  PlannerOptions options;
+  options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.4));
+  Planner planner(view_cube(5, Vec3::Constant(4), 1.2, 3, Vec3::Zero()), camera, options);
+  const VoxelMap map(small_scene());
+  VoxelMap half = map_with_hidden_voxel({20, 20, 20});
+  half.add_point({21, 20, 20}, Vec3::UnitX(), 1);
+  const auto plan = planner.next_best_view(half, view_towards({2, 0, 0}, Vec3::Zero()));
+  ASSERT_TRUE(plan);
+  std::vector<double> utilities(planner.candidates().views.size(), 0.0);
+  for (const Evaluation& each : plan->ranking) utilities[static_cast<std::size_t>(each.candidate)] = each.utility;
+  const std::vector<double> expected = convolve(utilities, planner.candidates(), *options.expected_error);
+  double best_utility = 0;
+  for (const Evaluation& each : plan->ranking) {
+    EXPECT_EQ(each.score, expected[static_cast<std::size_t>(each.candidate)]);
+    EXPECT_LE(each.score, plan->best.score);
+    best_utility = std::max(best_utility, each.utility);
+  }
+  EXPECT_GT(best_utility, 0);
+}
+
+TEST(Planner, RefusesToConvolveWhatMultiResolutionLeavesOut) {
+  PlannerOptions options;
+  options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.1));
+  options.search = SearchKind::multi_resolution;
+  EXPECT_THROW(Planner(view_sphere(20, 2, Vec3::Zero()), camera, options), InputError);
+}
+
 TEST(Planner, NamesUnknownUtilities) {
   EXPECT_THROW((void)utility_by_name("best"), InputError);
   PlannerOptions options;

@@ -45,16 +45,17 @@ std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_
     evaluation.seen = seen[i];
     evaluation.factors = factors(seen[i], travel.normalised(current.position(), views[i].position()), options);
     evaluation.utility = utility(evaluation.seen, evaluation.factors);
+    evaluation.score = evaluation.utility;
   }
   return evaluations;
 }
 
 void rank(std::vector<Evaluation>& evaluations) {
-  const bool any_utility =
-      std::any_of(evaluations.begin(), evaluations.end(), [](const Evaluation& e) { return e.utility > 0; });
-  std::sort(evaluations.begin(), evaluations.end(), [any_utility](const Evaluation& a, const Evaluation& b) {
-    if (any_utility && a.utility != b.utility) return a.utility > b.utility;
-    if (!any_utility && a.seen.occplane != b.seen.occplane) return a.seen.occplane > b.seen.occplane;
+  const bool any_score =
+      std::any_of(evaluations.begin(), evaluations.end(), [](const Evaluation& e) { return e.score > 0; });
+  std::sort(evaluations.begin(), evaluations.end(), [any_score](const Evaluation& a, const Evaluation& b) {
+    if (any_score && a.score != b.score) return a.score > b.score;
+    if (!any_score && a.seen.occplane != b.seen.occplane) return a.seen.occplane > b.seen.occplane;
     return a.candidate < b.candidate;
   });
 }

@@ -34,6 +34,7 @@ struct Evaluation {
   Visibility seen;
   Factors factors;
   double utility = 0;
+  double score = 0;  // what the ranking goes by: the utility, or the one expected under positioning error
 
   [[nodiscard]] bool evaluated() const { return resolution.rays() > 0; }
 };
@@ -57,7 +58,7 @@ struct ViewEvaluation {
                                                  std::span<const Resolution> resolutions) const;
 };
 
-/// Descending utility, ties by the lower candidate; where no utility is above 0, descending n_op (spec, section 4).
+/// Descending score, ties by the lower candidate; where no score is above 0, descending n_op (spec, section 4).
 void rank(std::vector<Evaluation>& evaluations);
 
 /// Every feasible candidate with the same kind of rays, ranked.

@@ -31,7 +31,7 @@ TEST(MultiResolution, RaisesTheResolutionInEqualSteps) {
 Evaluation evaluation(int candidate, double utility, int occplane) {
   Evaluation result;
   result.candidate = candidate;
-  result.utility = utility;
+  result.score = utility;
   result.seen.occplane = occplane;
   return result;
 }

@@ -1,0 +1,200 @@
+#include "vantage/search/convolution.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "vantage/core/error.hpp"
+#include "vantage/core/parallel.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double support_sigmas = 4;  // of the kernel on candidate sets that are no grid
+
+/// Values on the n^3 cells of a view cube, x fastest; 0 where there is no candidate.
+struct DenseGrid {
+  int n;
+  std::vector<double> values;
+
+  [[nodiscard]] std::size_t at(int x, int y, int z) const {
+    const auto side = static_cast<std::size_t>(n);
+    return (static_cast<std::size_t>(z) * side + static_cast<std::size_t>(y)) * side + static_cast<std::size_t>(x);
+  }
+};
+
+DenseGrid spread(std::span<const double> utilities, const CandidateGrid& grid) {
+  const int n = grid.cells_per_side;
+  DenseGrid dense{
+      n, std::vector<double>(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * static_cast<std::size_t>(n))};
+  for (std::size_t i = 0; i < utilities.size(); ++i) {
+    const Index3& cell = grid.cell_of_view[i];
+    dense.values[dense.at(cell.x(), cell.y(), cell.z())] = utilities[i];
+  }
+  return dense;
+}
+
+std::vector<double> gather(const DenseGrid& dense, const CandidateGrid& grid) {
+  std::vector<double> values;
+  values.reserve(grid.cell_of_view.size());
+  for (const Index3& cell : grid.cell_of_view) values.push_back(dense.values[dense.at(cell.x(), cell.y(), cell.z())]);
+  return values;
+}
+
+/// f[m] of one axis for m = -(n-1) .. n-1.
+std::vector<double> axis_kernel(int n, double spacing, double mean, double sigma, const ConvolutionOptions& options) {
+  std::vector<double> kernel;
+  for (int m = 1 - n; m < n; ++m) {
+    const double offset = m * spacing - mean;
+    double value = 0;
+    if (sigma > 0) {
+      const double z = offset / sigma;
+      value = options.truncate_sigmas && std::abs(z) > *options.truncate_sigmas ? 0 : std::exp(-0.5 * z * z);
+    } else {
+      value = offset > -0.5 * spacing && offset <= 0.5 * spacing ? 1 : 0;
+    }
+    kernel.push_back(value);
+  }
+  return kernel;
+}
+
+void convolve_axis(DenseGrid& grid, int axis, const std::vector<double>& kernel) {
+  const int n = grid.n;
+  const std::array<std::size_t, 3> strides{1, static_cast<std::size_t>(n),
+                                           static_cast<std::size_t>(n) * static_cast<std::size_t>(n)};
+  const std::size_t stride = strides[static_cast<std::size_t>(axis)];
+  std::vector<double> line(static_cast<std::size_t>(n));
+  for (std::size_t start = 0; start < grid.values.size(); ++start) {
+    if (start / stride % static_cast<std::size_t>(n) != 0) continue;  // not the first cell of a line
+    for (int v = 0; v < n; ++v) {
+      double sum = 0;
+      for (int u = 0; u < n; ++u) {
+        sum +=
+            kernel[static_cast<std::size_t>(u - v + n - 1)] * grid.values[start + static_cast<std::size_t>(u) * stride];
+      }
+      line[static_cast<std::size_t>(v)] = sum;
+    }
+    for (int v = 0; v < n; ++v)
+      grid.values[start + static_cast<std::size_t>(v) * stride] = line[static_cast<std::size_t>(v)];
+  }
+}
+
+std::vector<double> convolve_separably(std::span<const double> utilities, const CandidateGrid& grid,
+                                       const PositioningError& error, const ConvolutionOptions& options) {
+  DenseGrid dense = spread(utilities, grid);
+  double total = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double> kernel = axis_kernel(grid.cells_per_side, grid.spacing[axis], error.mean[axis],
+                                                   std::sqrt(error.covariance(axis, axis)), options);
+    convolve_axis(dense, axis, kernel);
+    double sum = 0;
+    for (const double value : kernel) sum += value;
+    total *= sum;
+  }
+  std::vector<double> result = gather(dense, grid);
+  if (options.normalise && total > 0) {
+    for (double& value : result) value /= total;
+  }
+  return result;
+}
+
+std::vector<double> convolve_directly(std::span<const double> utilities, const CandidateGrid& grid,
+                                      const PositioningError& error, const ConvolutionOptions& options) {
+  const int n = grid.cells_per_side;
+  const int width = 2 * n - 1;
+  const ErrorDensity density(error, 0.5 * grid.spacing);
+  std::vector<double> kernel;
+  kernel.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
+  double total = 0;
+  for (int z = 1 - n; z < n; ++z) {
+    for (int y = 1 - n; y < n; ++y) {
+      for (int x = 1 - n; x < n; ++x) {
+        const Vec3 offset = Vec3(x, y, z).cwiseProduct(grid.spacing);
+        const bool kept = !options.truncate_sigmas ||
+                          density.squared_distance(offset) <= *options.truncate_sigmas * *options.truncate_sigmas;
+        kernel.push_back(kept ? density(offset) : 0);
+        total += kernel.back();
+      }
+    }
+  }
+  std::vector<double> result(utilities.size());
+  parallel_for(utilities.size(), [&](std::size_t v) {
+    double sum = 0;
+    for (std::size_t u = 0; u < utilities.size(); ++u) {
+      const Index3 m = grid.cell_of_view[u] - grid.cell_of_view[v] + Index3::Constant(n - 1);
+      sum += kernel[static_cast<std::size_t>((m.z() * width + m.y()) * width + m.x())] * utilities[u];
+    }
+    result[v] = options.normalise && total > 0 ? sum / total : sum;
+  });
+  return result;
+}
+
+std::vector<double> convolve_neighbours(std::span<const double> utilities, const Candidates& candidates,
+                                        const PositioningError& error) {
+  const ErrorDensity density(error, Vec3::Constant(1e-9));
+  std::vector<double> result(utilities.size());
+  parallel_for(utilities.size(), [&](std::size_t v) {
+    double sum = 0;
+    double weights = 0;
+    for (std::size_t u = 0; u < utilities.size(); ++u) {
+      const Vec3 offset = candidates.views[u].position() - candidates.views[v].position();
+      const double distance = density.squared_distance(offset);
+      if (distance > support_sigmas * support_sigmas) continue;
+      const double weight = std::exp(-0.5 * distance);
+      sum += weight * utilities[u];
+      weights += weight;
+    }
+    // No candidate where the robot would end up: nothing but the view itself tells what to expect.
+    result[v] = weights > 0 ? sum / weights : utilities[v];
+  });
+  return result;
+}
+
+}  // namespace
+
+void ConvolutionOptions::validate() const {
+  require(!truncate_sigmas || *truncate_sigmas > 0, "convolution: truncation at ", truncate_sigmas.value_or(0),
+          " sigma: must be positive");
+}
+
+ErrorDensity::ErrorDensity(const PositioningError& error, const Vec3& resolution) : mean_(error.mean) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(error.covariance);
+  axes_ = solver.eigenvectors();
+  const double scale = std::max(solver.eigenvalues().cwiseAbs().maxCoeff(), 1e-30);
+  for (int i = 0; i < 3; ++i) {
+    const double variance = solver.eigenvalues()[i];
+    inverse_variance_[i] = variance > 1e-12 * scale ? 1 / variance : 0;
+    tolerance_[i] = axes_.col(i).cwiseAbs().dot(resolution);
+  }
+}
+
+double ErrorDensity::squared_distance(const Vec3& offset) const {
+  const Vec3 along_axes = axes_.transpose() * (offset - mean_);
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (inverse_variance_[i] > 0) {
+      sum += along_axes[i] * along_axes[i] * inverse_variance_[i];
+    } else if (std::abs(along_axes[i]) > tolerance_[i]) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return sum;
+}
+
+double ErrorDensity::operator()(const Vec3& offset) const { return std::exp(-0.5 * squared_distance(offset)); }
+
+std::vector<double> convolve(std::span<const double> utilities, const Candidates& candidates,
+                             const PositioningError& error, const ConvolutionOptions& options) {
+  options.validate();
+  error.validate();
+  require(utilities.size() == candidates.views.size(), "convolution: ", utilities.size(), " utilities for ",
+          candidates.views.size(), " candidates");
+  if (error.is_zero()) return {utilities.begin(), utilities.end()};
+  if (!candidates.grid) return convolve_neighbours(utilities, candidates, error);
+  if (error.is_diagonal()) return convolve_separably(utilities, *candidates.grid, error, options);
+  return convolve_directly(utilities, *candidates.grid, error, options);
+}
+
+}  // namespace vantage
