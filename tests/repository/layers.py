@@ -7,22 +7,23 @@ import pathlib
 import re
 import sys
 
-# What each folder builds on directly (ARCHITECTURE.md); whatever those build on is allowed too.
-BUILDS_ON = {
-    "core": [],
-    "sensor": ["core"],
-    "map": ["sensor"],
-    "candidates": ["sensor"],
-    "visibility": ["map"],
-    "robot": ["map"],
-    "registration": ["sensor"],
-    "utility": ["visibility", "robot"],
-    "simulation": ["map", "robot"],
-    "search": ["utility", "candidates"],
-    "planning": ["search"],
-    "reconstruction": ["planning", "registration"],
-    "io": ["reconstruction"],
-    "experiments": ["io", "simulation"],
+# Each folder with its layer and what it builds on directly (ARCHITECTURE.md). What those build on is allowed too. A test
+# may set up its case with anything from the layers below.
+FOLDERS = {
+    "core": (0, []),
+    "sensor": (1, ["core"]),
+    "map": (2, ["sensor"]),
+    "candidates": (2, ["sensor"]),
+    "visibility": (3, ["map"]),
+    "robot": (3, ["map"]),
+    "registration": (3, ["sensor"]),
+    "utility": (4, ["visibility", "robot"]),
+    "simulation": (4, ["map", "robot"]),
+    "search": (5, ["utility", "candidates"]),
+    "planning": (6, ["search"]),
+    "reconstruction": (7, ["planning", "registration"]),
+    "io": (8, ["reconstruction"]),
+    "experiments": (9, ["io", "simulation"]),
 }
 
 # The library vantage::core: Eigen, oneTBB and the standard library, nothing else.
@@ -33,22 +34,23 @@ CORE_SYSTEM_HEADERS = ["immintrin.h", "cpuid.h"]  # vector instructions
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def allowed_folders(folder):
+def allowed_folders(folder, is_test):
     """The folder itself and all that it builds on, directly or not."""
-    allowed = {folder}
-    for below in BUILDS_ON[folder]:
-        allowed |= allowed_folders(below)
-    return allowed
+    layer, builds_on = FOLDERS[folder]
+    if is_test:
+        return {folder} | {other for other, (height, _) in FOLDERS.items() if height < layer}
+    return {folder}.union(*(allowed_folders(below, is_test) for below in builds_on))
 
 
 def why_forbidden(folder, header, is_test):
     """Why a file of `folder` may not include `header`, or None where it may."""
     parts = header.split("/")
     if parts[0] == "vantage":
-        if len(parts) != 3 or parts[1] not in BUILDS_ON:
+        if len(parts) != 3 or parts[1] not in FOLDERS:
             return "is not of the form vantage/FOLDER/FILE.hpp with a known folder"
-        if parts[1] not in allowed_folders(folder):
-            return f"{folder} may include only {', '.join(sorted(allowed_folders(folder)))}"
+        allowed = allowed_folders(folder, is_test)
+        if parts[1] not in allowed:
+            return f"{folder} may include only {', '.join(sorted(allowed))}"
         return None
     if ".." in parts:
         return "leaves its folder; write vantage/FOLDER/FILE.hpp"
@@ -68,7 +70,7 @@ def check(root):
             continue
         name = file.relative_to(root)
         folder = file.relative_to(library).parts[0]
-        if folder not in BUILDS_ON or file.parent.parent != library:
+        if folder not in FOLDERS or file.parent.parent != library:
             messages.append(f"{name}: not in one of the folders that ARCHITECTURE.md lists")
             continue
         for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):

@@ -35,7 +35,9 @@ class Layers(unittest.TestCase):
         self.assertEqual(1, len(self.messages({"registration/a.cpp": '#include "vantage/map/grid.hpp"\n'})))
         self.assertEqual(1, len(self.messages({"io/a.cpp": '  #include <vantage/simulation/scene.hpp>\n'})))
 
-    def test_tests_obey_the_layers_too(self):
+    def test_tests_may_use_all_lower_layers_but_no_higher_ones(self):
+        self.assertEqual([], self.messages({"robot/a_test.cpp": '#include "vantage/candidates/candidates.hpp"\n'}))
+        self.assertEqual(1, len(self.messages({"robot/a.cpp": '#include "vantage/candidates/candidates.hpp"\n'})))
         self.assertEqual(1, len(self.messages({"map/a_test.cpp": '#include "vantage/io/files.hpp"\n'})))
         self.assertEqual([], self.messages({"map/a_test.cpp": '#include <gtest/gtest.h>\n'}))
 
