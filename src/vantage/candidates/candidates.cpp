@@ -1,6 +1,7 @@
 #include "vantage/candidates/candidates.hpp"
 
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
@@ -52,15 +53,12 @@ std::vector<Triangle> split_in_four(const std::vector<Triangle>& faces) {
   return finer;
 }
 
+// Not std::stod, which reads "1,5" in some locales, hexadecimal numbers and leading blanks.
 double number(const std::string& part, const std::string& what, const std::string& text) {
-  std::size_t used = 0;
   double value = 0;
-  try {
-    value = std::stod(part, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  require(used > 0 && used == part.size() && std::isfinite(value), "candidates '", text, "': ", what, " = '", part,
+  const char* const end = part.data() + part.size();
+  const auto [stop, error] = std::from_chars(part.data(), end, value);
+  require(error == std::errc{} && stop == end && std::isfinite(value), "candidates '", text, "': ", what, " = '", part,
           "' is not a number");
   return value;
 }

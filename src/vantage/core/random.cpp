@@ -1,6 +1,7 @@
 #include "vantage/core/random.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace vantage {
 namespace {
@@ -13,13 +14,32 @@ std::uint64_t mix(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
+// ln(value) by +, * and / alone, which round the same everywhere. With value = m*2^e and s = (m-1)/(m+1),
+// ln m = 2(s + s^3/3 + s^5/5 + ...), where |s| <= 0.172 makes twelve terms enough.
+double portable_log(double value) {
+  int exponent = 0;
+  double mantissa = std::frexp(value, &exponent);
+  if (mantissa < std::numbers::sqrt2 / 2) {
+    mantissa *= 2;
+    --exponent;
+  }
+  const double s = (mantissa - 1) / (mantissa + 1);
+  double series = 0;
+  for (int k = 23; k >= 1; k -= 2) series = series * s * s + 1.0 / k;
+  return 2 * s * series + exponent * std::numbers::ln2;
+}
+
 }  // namespace
 
 Random::Random(std::uint64_t seed, std::uint64_t stream) : engine_(mix(mix(seed) + stream)) {}
 
 double Random::normal() {
-  const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-  return radius * std::cos(2 * std::numbers::pi * uniform());
+  while (true) {
+    const double u = uniform(-1, 1);
+    const double v = uniform(-1, 1);
+    const double squared = u * u + v * v;
+    if (squared > 0 && squared < 1) return u * std::sqrt(-2 * portable_log(squared) / squared);
+  }
 }
 
 Vec3 Random::normal3() {

@@ -20,7 +20,7 @@ class Random {
   [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Uniform among 0 .. count-1; `count` must be positive.
   [[nodiscard]] int index(int count) { return static_cast<int>(uniform() * count); }
-  /// Standard normal (Box-Muller; two uniform numbers each).
+  /// Standard normal, by Marsaglia's polar method with a logarithm of its own: std::log differs between machines.
   [[nodiscard]] double normal();
   [[nodiscard]] Vec3 normal3();
   [[nodiscard]] Vec3 unit_vector();

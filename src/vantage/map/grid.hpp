@@ -22,9 +22,13 @@ struct Grid {
   [[nodiscard]] bool contains(const Index3& index) const {
     return (index.array() >= 0).all() && (index.array() < size.array()).all();
   }
+  /// Indices end here: whatever lies farther out has this index, so that sums of three still fit in an int.
+  static constexpr int farthest_index = 1 << 28;
   /// The voxel along one axis whose planes enclose the coordinate, exactly: plane(k) <= coordinate < plane(k+1).
   [[nodiscard]] int index_of(int axis, double coordinate) const {
-    int k = static_cast<int>(std::floor((coordinate - min[axis]) / length));
+    const double guess = std::floor((coordinate - min[axis]) / length);
+    if (!(std::abs(guess) < farthest_index)) return coordinate < min[axis] ? -farthest_index : farthest_index;
+    int k = static_cast<int>(guess);
     while (plane(axis, k) > coordinate) --k;  // rounding may put the quotient on the wrong side of a plane
     while (plane(axis, k + 1) <= coordinate) ++k;
     return k;

@@ -16,7 +16,7 @@ struct Marks {
 
 void trace(const VoxelMap& map, const SightLine& line, Marks& marks) {
   const LatticeRay ray(map.grid(), line.origin, line.direction);
-  const Index3 hit = map.grid().index_of(line.hit_point());
+  const Index3 hit = line.is_hit ? map.grid().index_of(line.hit_point()) : ray.origin_cell;
   const int steps_to_hit = steps_between(hit, ray.origin_cell);
   const bool labels_behind = line.is_hit && map.enclosure().contains(hit);
   visit_voxels(map.grid(), map.enclosure(), ray, line.near, [&](const Index3& index, double entered) {

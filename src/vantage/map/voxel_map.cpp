@@ -61,6 +61,7 @@ void VoxelMap::set_label(const Index3& index, Label label) {
   const std::size_t word = layout_.word(at);
   const std::uint64_t bit = BitLayout::bit(at);
   const bool was_occupied = (occupied_.words[word] & bit) != 0;
+  if (was_occupied && label == Label::occupied) return;
   assign(occupied_, word, bit, label == Label::occupied);
   assign(empty_, word, bit, label == Label::empty);
   assign(hidden_, word, bit, label == Label::occluded || label == Label::occplane);
@@ -71,11 +72,7 @@ void VoxelMap::set_label(const Index3& index, Label label) {
 bool VoxelMap::add_point(const Index3& index, const Vec3& normal_in_world, double quality) {
   const bool is_new = label(index) != Label::occupied;
   if (is_new) set_label(index, Label::occupied);
-  SurfaceVoxel& surface = surface_slot(local(index));
-  if (!normal_in_world.isZero(0)) {
-    surface.normal_sum += normal_in_world;
-    surface.quality = std::max(surface.quality, quality);
-  }
+  if (!normal_in_world.isZero(0)) surface_slot(local(index)).add(normal_in_world, quality);
   return is_new;
 }
 
@@ -93,11 +90,13 @@ SurfaceVoxel& VoxelMap::surface_slot(const Index3& local_index) {
   return surfaces_[static_cast<std::size_t>(slot)];
 }
 
+const SurfaceVoxel& VoxelMap::surface_of(const Index3& local_index) const {
+  const SurfaceBlock& block = blocks_[static_cast<std::size_t>(block_of_word_[layout_.word(local_index)])];
+  return surfaces_[static_cast<std::size_t>(block[static_cast<std::size_t>(local_index.x()) & 63U])];
+}
+
 const SurfaceVoxel* VoxelMap::surface(const Index3& index) const {
-  if (label(index) != Label::occupied) return nullptr;
-  const Index3 at = local(index);
-  const SurfaceBlock& block = blocks_[static_cast<std::size_t>(block_of_word_[layout_.word(at)])];
-  return &surfaces_[static_cast<std::size_t>(block[static_cast<std::size_t>(at.x()) & 63U])];
+  return label(index) == Label::occupied ? &surface_of(local(index)) : nullptr;
 }
 
 void VoxelMap::set_surface(const Index3& index, const SurfaceVoxel& surface) {
@@ -123,18 +122,35 @@ std::int64_t VoxelMap::count(Label label) const {
   return inside - count_bits(occupied_) - count_bits(empty_) - count_bits(hidden_);
 }
 
+template <class Visit>
+void VoxelMap::visit_occupied(const Visit& visit) const {
+  for (int z = 0; z < layout_.size.z(); ++z) {
+    for (int y = 0; y < layout_.size.y(); ++y) {
+      for (int w = 0; w < layout_.words_per_row; ++w) {
+        std::uint64_t bits = occupied_.words[layout_.row(y, z) + static_cast<std::size_t>(w)];
+        for (; bits != 0; bits &= bits - 1) visit(Index3(64 * w + std::countr_zero(bits), y, z));
+      }
+    }
+  }
+}
+
 double VoxelMap::mean_quality() const {
   double sum = 0;
-  std::int64_t voxels = 0;
-  for (const Index3& index : occupied_voxels()) {
-    sum += surface(index)->quality;
-    ++voxels;
-  }
+  visit_occupied([&](const Index3& voxel) { sum += surface_of(voxel).quality; });
+  const std::int64_t voxels = count(Label::occupied);
   return voxels > 0 ? sum / static_cast<double>(voxels) : 0;
 }
 
+std::vector<Index3> VoxelMap::occupied_voxels() const {
+  std::vector<Index3> voxels;
+  voxels.reserve(static_cast<std::size_t>(count(Label::occupied)));
+  visit_occupied([&](const Index3& voxel) { voxels.emplace_back(enclosure_.min + voxel); });
+  return voxels;
+}
+
 void VoxelMap::update_occplane() {
-  const auto [nx, ny, nz] = std::array{layout_.size.x(), layout_.size.y(), layout_.size.z()};
+  const int ny = layout_.size.y();
+  const int nz = layout_.size.z();
   const int words = layout_.words_per_row;
   constexpr std::uint64_t all = ~std::uint64_t{0};
   const auto empty_word = [&](int w, int y, int z) {
@@ -159,22 +175,6 @@ void VoxelMap::update_occplane() {
       }
     }
   }
-  (void)nx;
-}
-
-std::vector<Index3> VoxelMap::occupied_voxels() const {
-  std::vector<Index3> voxels;
-  for (int z = 0; z < layout_.size.z(); ++z) {
-    for (int y = 0; y < layout_.size.y(); ++y) {
-      for (int w = 0; w < layout_.words_per_row; ++w) {
-        for (std::uint64_t bits = occupied_.words[layout_.row(y, z) + static_cast<std::size_t>(w)]; bits != 0;
-             bits &= bits - 1) {
-          voxels.emplace_back(enclosure_.min + Index3(64 * w + std::countr_zero(bits), y, z));
-        }
-      }
-    }
-  }
-  return voxels;
 }
 
 void VoxelMap::carve_word(std::size_t word, std::uint64_t emptied, std::uint64_t occluded) {

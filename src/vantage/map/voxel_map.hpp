@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,10 @@ struct SurfaceVoxel {
   Vec3 normal_sum = Vec3::Zero();  // of all points that ever fell into the voxel, world frame
   double quality = 0;              // best cosine between a point's normal and the direction back to the sensor
 
+  void add(const Vec3& normal_in_world, double point_quality) {
+    normal_sum += normal_in_world;
+    quality = std::max(quality, point_quality);
+  }
   /// The renormalised sum, or (0,0,0) where no point had a normal.
   [[nodiscard]] Vec3 normal() const;
 };
@@ -56,7 +61,8 @@ class VoxelMap {
  public:
   /// Throws InputError where the enclosure does not lie in the grid or does not fit in memory.
   VoxelMap(const Grid& grid, const IndexBox& enclosure);
-  explicit VoxelMap(const SceneOptions& options) : VoxelMap(options.grid(), options.enclosure()) { options.validate(); }
+  /// Throws InputError naming the option.
+  explicit VoxelMap(const SceneOptions& options) : VoxelMap(validated(options).grid(), options.enclosure()) {}
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
   [[nodiscard]] const IndexBox& enclosure() const { return enclosure_; }
@@ -64,7 +70,8 @@ class VoxelMap {
 
   /// Indices are the scene's. Everything outside the enclosure is empty.
   [[nodiscard]] Label label(const Index3& index) const;
-  /// The voxel must lie in the enclosure. Leaving `occupied` forgets the voxel's surface.
+  /// The voxel must lie in the enclosure. Leaving `occupied` forgets the voxel's surface; a voxel that becomes occupied
+  /// has none yet.
   void set_label(const Index3& index, Label label);
   /// Marks the voxel occupied and adds a measured point to it. A zero normal adds nothing to the normal and quality.
   /// Returns true where the voxel was not occupied before.
@@ -98,6 +105,14 @@ class VoxelMap {
   void carve_word(std::size_t word, std::uint64_t emptied, std::uint64_t occluded);
 
  private:
+  [[nodiscard]] static const SceneOptions& validated(const SceneOptions& options) {
+    options.validate();
+    return options;
+  }
+  /// Calls `visit(local index)` for every occupied voxel, x fastest.
+  template <class Visit>
+  void visit_occupied(const Visit& visit) const;
+  [[nodiscard]] const SurfaceVoxel& surface_of(const Index3& local_index) const;
   [[nodiscard]] Index3 local(const Index3& index) const { return index - enclosure_.min; }
   [[nodiscard]] SurfaceVoxel& surface_slot(const Index3& local_index);
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <compare>
 #include <limits>
 
 #include "vantage/map/grid.hpp"
@@ -74,10 +76,12 @@ void visit_voxels(const Grid& grid, const IndexBox& box, const LatticeRay& ray, 
       continue;
     }
     // All crossings up to `start` have happened. Guess the slab, then correct the guess by the crossings themselves.
-    int k = static_cast<int>(std::floor((ray.origin[a] + start.t * ray.direction[a] - grid.min[a]) / grid.length));
+    const double guess = std::floor((ray.origin[a] + start.t * ray.direction[a] - grid.min[a]) / grid.length);
+    int k = static_cast<int>(std::clamp(guess, box.min[a] - 1.0, box.max[a] + 1.0));
     if ((k - ray.origin_cell[a]) * step < 0) k = ray.origin_cell[a];
-    while (Crossing{ray.enter(grid, a, k + step), a} <= start) k += step;
+    const int last = step > 0 ? box.max[a] : box.min[a];
     while (k != ray.origin_cell[a] && Crossing{ray.enter(grid, a, k), a} > start) k -= step;
+    while ((last - k) * step >= 0 && Crossing{ray.enter(grid, a, k + step), a} <= start) k += step;
     if (k < box.min[a] || k > box.max[a]) return;
     index[a] = k;
     next[static_cast<std::size_t>(a)] = {ray.enter(grid, a, k + step), a};

@@ -65,7 +65,9 @@ RangeCamera camera_from_intrinsics(double fx, double fy, double cx, double cy, R
 }
 
 Resolution ideal_resolution(const RangeCamera& camera, double voxel_length, double distance) {
-  require(voxel_length > 0, "voxel_length = ", voxel_length, " m: must be positive");
+  require(voxel_length > 0 && std::isfinite(voxel_length), "voxel_length = ", voxel_length, " m: must be positive");
+  require(distance >= 0 && distance <= 1e6 * voxel_length, "distance = ", distance,
+          " m: must be within 0 and a million voxel lengths");
   // Nearer than a voxel eq. 14 has no solution; one ray per voxel-sized radius is the nearest meaning.
   const double angle = std::asin(std::min(1.0, voxel_length / std::max(distance, voxel_length)));
   const auto count = [angle](double aperture) {

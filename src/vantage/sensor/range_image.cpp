@@ -1,5 +1,6 @@
 #include "vantage/sensor/range_image.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vantage/core/error.hpp"

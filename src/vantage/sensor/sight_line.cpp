@@ -17,6 +17,7 @@ void set_surface(SightLine& line, const Vec3& normal, const Vec3& axis, QualityR
 
 std::vector<SightLine> sight_lines(const RangeImage& image, std::span<const Vec3f> normals_in_sensor, const View& view,
                                    QualityReference reference) {
+  image.validate();
   require(normals_in_sensor.empty() || normals_in_sensor.size() == image.depth.size(),
           "sight lines: ", normals_in_sensor.size(), " normals for ", image.depth.size(), " pixels");
   const RayGrid rays = image.camera.rays();

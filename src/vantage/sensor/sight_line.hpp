@@ -16,7 +16,7 @@ struct SightLine {
   double end = 0;   // t of the hit, or of the far limit where nothing was met
   bool is_hit = false;
   Vec3 normal = Vec3::Zero();  // of the surface at the hit, facing the sensor; zero where unknown
-  double quality = 0;          // cosine between the normal and the direction back to the sensor
+  double quality = 0;          // cosine between the normal and the direction back (QualityReference)
 
   [[nodiscard]] Vec3 hit_point() const { return origin + end * direction; }
 };

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include "vantage/core/random.hpp"
+#include "vantage/map/integrate.hpp"
+#include "vantage/map/voxel_ray.hpp"
+
+namespace vantage {
+namespace {
+
+/// Spec, section 1, voxel by voxel: no traversal, only the closed-form test of a ray against a voxel.
+void integrate_naively(VoxelMap& map, const std::vector<SightLine>& lines) {
+  const Grid& grid = map.grid();
+  for (const SightLine& line : lines) {
+    if (line.is_hit && map.enclosure().contains(grid.index_of(line.hit_point()))) {
+      map.add_point(grid.index_of(line.hit_point()), line.normal, line.quality);
+    }
+  }
+  const IndexBox box = map.enclosure();
+  const auto steps = [](const Index3& a, const Index3& b) { return (a - b).cwiseAbs().sum(); };
+  for (int z = box.min.z(); z <= box.max.z(); ++z) {
+    for (int y = box.min.y(); y <= box.max.y(); ++y) {
+      for (int x = box.min.x(); x <= box.max.x(); ++x) {
+        const Index3 voxel(x, y, z);
+        bool crossed_before_end = false;
+        bool crossed_behind_hit = false;
+        for (const SightLine& line : lines) {
+          const LatticeRay ray(grid, line.origin, line.direction);
+          if (!line.is_hit) {
+            crossed_before_end |= passes_voxel(grid, ray, voxel, line.near, line.end);
+          } else if (passes_voxel(grid, ray, voxel, line.near, LatticeRay::never)) {
+            const Index3 hit = grid.index_of(line.hit_point());
+            const int to_voxel = steps(voxel, ray.origin_cell);
+            const int to_hit = steps(hit, ray.origin_cell);
+            crossed_before_end |= to_voxel < to_hit;
+            crossed_behind_hit |= to_voxel > to_hit && box.contains(hit);
+          }
+        }
+        const Label before = map.label(voxel);
+        if (before == Label::occupied) continue;
+        if (crossed_before_end) {
+          map.set_label(voxel, Label::empty);
+        } else if (crossed_behind_hit && before == Label::unmarked) {
+          map.set_label(voxel, Label::occluded);
+        }
+      }
+    }
+  }
+  map.update_occplane();
+}
+
+TEST(IntegrateExactly, DoesWhatTheSpecSaysVoxelByVoxel) {
+  Random random(51);
+  int scans = 0;
+  std::array<std::int64_t, 5> seen{};
+  for (int scene = 0; scene < 150; ++scene) {
+    const Grid grid{Vec3::Constant(-1), random.uniform() < 0.5 ? 0.25 : 0.21, Index3(9, 10, 8)};
+    const IndexBox enclosure{Index3(1, 0, 2), Index3(6, 7, 6)};
+    VoxelMap map(grid, enclosure);
+    VoxelMap naive(grid, enclosure);
+    for (int scan = 0; scan < 3; ++scan) {
+      const auto awkward = [&](double scale) {
+        const double value = random.uniform(-scale, scale);
+        return random.uniform() < 0.5 ? value : std::round(value * 4) / 4;
+      };
+      std::vector<SightLine> lines;
+      for (int i = 0; i < 25; ++i) {
+        SightLine line;
+        line.origin = Vec3(awkward(3), awkward(3), awkward(3));
+        line.direction = Vec3(awkward(1), awkward(1), awkward(1)) - line.origin;
+        if (line.direction.isZero(0)) continue;
+        line.near = random.uniform() < 0.7 ? 0 : random.uniform(0, 1);
+        line.is_hit = random.uniform() < 0.6;
+        line.end = random.uniform() < 0.5 ? 1 : random.uniform(0.1, 2.5);
+        if (random.uniform() < 0.8) {
+          line.normal = random.unit_vector();
+          line.quality = random.uniform();
+        }
+        lines.push_back(line);
+      }
+      integrate_exactly(map, lines);
+      integrate_naively(naive, lines);
+      ++scans;
+      for (int z = 0; z < 8; ++z) {
+        for (int y = 0; y < 10; ++y) {
+          for (int x = 0; x < 9; ++x) {
+            const Index3 voxel(x, y, z);
+            ASSERT_EQ(name(map.label(voxel)), name(naive.label(voxel)))
+                << "scene " << scene << ": " << voxel.transpose();
+            ++seen.at(static_cast<std::size_t>(map.label(voxel)));
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(scans, 450);
+  for (const Label label : all_labels) EXPECT_GT(seen.at(static_cast<std::size_t>(label)), 50) << name(label);
+}
+
+/// A row of five voxels of 1 m along x; the ray starts at x = -2.5 in voxel -3.
+struct Row {
+  VoxelMap map{Grid{Vec3::Zero(), 1, Index3(7, 1, 1)}, IndexBox{Index3(0, 0, 0), Index3(4, 0, 0)}};
+
+  IntegrationReport hit_at(double x) {
+    SightLine line;
+    line.origin = Vec3(-2.5, 0.5, 0.5);
+    line.direction = Vec3::UnitX();
+    line.end = x + 2.5;
+    line.is_hit = true;
+    return integrate_exactly(map, std::vector{line});
+  }
+  void no_return_until(double x) {
+    SightLine line;
+    line.origin = Vec3(-2.5, 0.5, 0.5);
+    line.direction = Vec3::UnitX();
+    line.end = x + 2.5;
+    integrate_exactly(map, std::vector{line});
+  }
+  [[nodiscard]] std::string labels() const {
+    std::string text;
+    for (int x = 0; x < 5; ++x) text += "?#.xo"[static_cast<int>(map.label({x, 0, 0}))];
+    return text;
+  }
+};
+
+TEST(IntegrateExactly, BeforeTheHitEmptyBehindItHidden) {
+  Row row;
+  const IntegrationReport report = row.hit_at(2.5);
+  EXPECT_EQ(row.labels(), "..#oo") << "a row one voxel thick has empty neighbours everywhere";
+  EXPECT_EQ(report.points_in_enclosure, 1);
+  EXPECT_EQ(report.new_occupied, 1);
+}
+
+TEST(IntegrateExactly, OccupiedIsNeverDowngraded) {
+  Row row;
+  row.hit_at(1.5);
+  row.hit_at(3.5);
+  EXPECT_EQ(row.labels(), ".#.#o");
+}
+
+TEST(IntegrateExactly, AHitBehindTheEnclosureFreesItsPath) {
+  Row row;
+  const IntegrationReport report = row.hit_at(6.5);
+  EXPECT_EQ(row.labels(), ".....");
+  EXPECT_EQ(report.points_in_enclosure, 0);
+}
+
+TEST(IntegrateExactly, AHitBeforeTheEnclosureLabelsNothing) {
+  Row row;
+  row.hit_at(-1.5);
+  EXPECT_EQ(row.labels(), "?????");
+}
+
+TEST(IntegrateExactly, NoReturnFreesUpToTheFarLimit) {
+  Row row;
+  row.no_return_until(2.5);
+  EXPECT_EQ(row.labels(), "...??");
+}
+
+}  // namespace
+}  // namespace vantage
