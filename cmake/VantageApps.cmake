@@ -7,7 +7,8 @@ target_link_libraries(vantage_registration PUBLIC vantage_core PRIVATE $<BUILD_I
 vantage_require(simulation fmt)
 vantage_require(simulation embree 3)
 vantage_library(simulation simulation)
-target_link_libraries(vantage_simulation PUBLIC vantage_core PRIVATE embree fmt::fmt)
+target_link_libraries(vantage_simulation
+  PUBLIC vantage_core PRIVATE embree $<BUILD_INTERFACE:nanoflann::nanoflann> fmt::fmt)
 
 vantage_require(full fmt)
 vantage_require(full nlohmann_json)
