@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vantage {
+
+/// One property of all rows of a PLY element, for example `x` of `vertex`.
+struct PlyColumn {
+  std::string name;
+  bool is_list = false;
+  /// One value per row, or the values of all lists one after the other. Every PLY type fits into a double exactly.
+  std::vector<double> values;
+  /// Lists only: where in `values` the list of each row ends.
+  std::vector<std::size_t> ends;
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t rows = 0;
+  std::vector<PlyColumn> columns;
+
+  /// nullptr where there is no such property.
+  [[nodiscard]] const PlyColumn* find(std::string_view column) const;
+};
+
+/// The content of a PLY file of any kind: ASCII or binary of either byte order.
+struct Ply {
+  std::vector<PlyElement> elements;
+  /// The lines of the header that start with `obj_info`, without this word.
+  std::vector<std::string> info;
+
+  /// nullptr where there is no such element.
+  [[nodiscard]] const PlyElement* find(std::string_view element) const;
+};
+
+/// Throws InputError naming `name`, the line or row, and what is wrong with it. Memory stays within a small multiple of
+/// the input, whatever its header promises.
+[[nodiscard]] Ply parse_ply(std::string_view bytes, const std::string& name);
+
+/// A scalar property that must be there, as `name` and element in the error's text.
+[[nodiscard]] const PlyColumn& scalar_column(const PlyElement& element, std::string_view column,
+                                             const std::string& name);
+
+/// The header of a binary little-endian file with one element `vertex` of float32 properties, with `faces` an element
+/// `face` of `list uchar int vertex_indices` after it.
+[[nodiscard]] std::string ply_header(std::size_t vertices, const std::vector<std::string>& properties,
+                                     std::size_t faces = 0);
+
+/// Appends the value as four bytes, little endian.
+void append_float32(std::string& bytes, double value);
+void append_int32(std::string& bytes, std::int32_t value);
+
+}  // namespace vantage
