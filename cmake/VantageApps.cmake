@@ -14,11 +14,11 @@ vantage_require(full fmt)
 vantage_require(full nlohmann_json)
 vantage_require(full yaml-cpp)
 vantage_require(full PNG)
-vantage_require(full assimp)
+vantage_require(full liblzf)
 vantage_library(full reconstruction io experiments)
 target_link_libraries(vantage_full
   PUBLIC vantage_core vantage_registration vantage_simulation nlohmann_json::nlohmann_json
-  PRIVATE fmt::fmt yaml-cpp PNG::PNG assimp::assimp)
+  PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf)
 
 find_package(CLI11 REQUIRED)
 file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)

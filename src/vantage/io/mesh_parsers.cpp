@@ -30,7 +30,7 @@ void drop_comment(TextReader& text) {
 /// A corner of an OBJ face: `i`, `i/t`, `i//n` or `i/t/n`, from 1, or from the last vertex backwards where negative.
 int obj_corner(const TextReader& text, std::string_view word, std::size_t vertices) {
   const auto index = to_integer(word.substr(0, word.find('/')));
-  if (!index) text.fail(fmt::format("corner {} of a face: must be like 3, 3/1, 3//2 or 3/1/2", quoted(word)));
+  if (!index) text.fail(fmt::format("corner {} of a face: must be like 3, 3/1, 3//2 or 3/1/2", in_quotes(word)));
   const auto count = static_cast<std::int64_t>(vertices);
   const std::int64_t from_zero = *index > 0 ? *index - 1 : count + *index;
   if (*index == 0 || *index > count || from_zero < 0) {
@@ -76,7 +76,7 @@ TriangleMesh parse_ply_mesh(std::string_view bytes, const std::string& name) {
   mesh.vertices.reserve(vertices->rows);
   for (std::size_t i = 0; i < vertices->rows; ++i) {
     const Vec3 vertex(x.values[i], y.values[i], z.values[i]);
-    require(vertex.allFinite(), name, ": vertex ", i, " is at (", vertex.transpose(), "): must be finite numbers");
+    require(vertex.allFinite(), name, ": vertex ", i, " is at ", in_brackets(vertex), ": must be finite numbers");
     mesh.vertices.push_back(vertex);
   }
   const PlyElement* faces = ply.find("face");

@@ -64,12 +64,12 @@ Data read_data(TextReader& text) {
   if (data == "ascii") return Data::ascii;
   if (data == "binary") return Data::binary;
   if (data == "binary_compressed") return Data::compressed;
-  text.fail(fmt::format("DATA {}: must be ascii, binary or binary_compressed", quoted(data)));
+  text.fail(fmt::format("DATA {}: must be ascii, binary or binary_compressed", in_quotes(data)));
 }
 
 void read_type(TextReader& text, FieldLayout& field) {
   const std::string_view type = text.word();
-  if (type != "F" && type != "I" && type != "U") text.fail(fmt::format("TYPE {}: must be F, I or U", quoted(type)));
+  if (type != "F" && type != "I" && type != "U") text.fail(fmt::format("TYPE {}: must be F, I or U", in_quotes(type)));
   field.type = type[0];
 }
 
@@ -102,7 +102,7 @@ void check(const TextReader& text, const Header& header) {
   }
   for (const FieldLayout& field : header.fields) {
     if (field.type == 'F' && field.bytes < 4)
-      text.fail(fmt::format("field {}: F needs SIZE 4 or 8", quoted(field.name)));
+      text.fail(fmt::format("field {}: F needs SIZE 4 or 8", in_quotes(field.name)));
   }
 }
 
@@ -131,7 +131,7 @@ Header read_header(TextReader& text) {
       check(text, header);
       return header;
     } else if (keyword != "VERSION" && keyword[0] != '#') {
-      text.fail(fmt::format("{} is no keyword of a PCD header", quoted(keyword)));
+      text.fail(fmt::format("{} is no keyword of a PCD header", in_quotes(keyword)));
     }
   }
   throw InputError(text.name() + ": the header ends without 'DATA'; the file is cut off or not a PCD file");

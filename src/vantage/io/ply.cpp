@@ -80,7 +80,7 @@ struct Header {
 Type read_type(TextReader& text) {
   const std::string_view name = text.word();
   const auto type = type_named(name);
-  if (!type) text.fail(fmt::format("{} is no PLY type", quoted(name)));
+  if (!type) text.fail(fmt::format("{} is no PLY type", in_quotes(name)));
   return *type;
 }
 
@@ -98,14 +98,14 @@ void read_property(TextReader& text, Header& header) {
     layout.type = read_type(text);
   } else {
     const auto found = type_named(type);
-    if (!found) text.fail(fmt::format("{} is no PLY type", quoted(type)));
+    if (!found) text.fail(fmt::format("{} is no PLY type", in_quotes(type)));
     layout.type = *found;
   }
   column.name = text.word();
   PlyElement& element = header.content.elements.back();
   if (column.name.empty()) text.fail("the property has no name");
   if (element.columns.size() == most_parts) text.fail(fmt::format("more than {} properties", most_parts));
-  if (element.find(column.name) != nullptr) text.fail(fmt::format("property {} stands twice", quoted(column.name)));
+  if (element.find(column.name) != nullptr) text.fail(fmt::format("property {} stands twice", in_quotes(column.name)));
   element.columns.push_back(std::move(column));
   header.layouts.back().push_back(layout);
 }
@@ -115,7 +115,7 @@ Encoding read_format(TextReader& text) {
   if (format == "ascii") return Encoding::ascii;
   if (format == "binary_little_endian") return Encoding::little_endian;
   if (format == "binary_big_endian") return Encoding::big_endian;
-  text.fail(fmt::format("format {}: must be ascii, binary_little_endian or binary_big_endian", quoted(format)));
+  text.fail(fmt::format("format {}: must be ascii, binary_little_endian or binary_big_endian", in_quotes(format)));
 }
 
 Header read_header(TextReader& text) {
@@ -134,7 +134,7 @@ Header read_header(TextReader& text) {
       element.name = text.word();
       element.rows = text.count("the number of rows");
       if (header.content.find(element.name) != nullptr)
-        text.fail(fmt::format("element {} stands twice", quoted(element.name)));
+        text.fail(fmt::format("element {} stands twice", in_quotes(element.name)));
       if (header.content.elements.size() == most_parts) text.fail(fmt::format("more than {} elements", most_parts));
       header.content.elements.push_back(std::move(element));
       header.layouts.emplace_back();
@@ -146,7 +146,7 @@ Header read_header(TextReader& text) {
       if (!has_format) text.fail("the header has no line 'format'");
       return header;
     } else if (keyword != "comment" && !keyword.empty()) {
-      text.fail(fmt::format("{} is no keyword of a PLY header", quoted(keyword)));
+      text.fail(fmt::format("{} is no keyword of a PLY header", in_quotes(keyword)));
     }
   }
   throw InputError(text.name() + ": the header ends without 'end_header'; the file is cut off or not a PLY file");
@@ -158,6 +158,7 @@ class AsciiSource {
   explicit AsciiSource(TextReader& text) : text_(text) {}
 
   [[nodiscard]] std::size_t bytes_left() const { return text_.rest().size(); }
+  [[nodiscard]] std::size_t most_values_left() const { return text_.rest_of_line().size() / 2; }  // a blank and a digit
   // A value takes at least a digit and a separator; the last one of the file needs none.
   static std::size_t least_bytes(const Layout&) { return 1; }
   void begin_row(const PlyElement& element, std::size_t row) {
@@ -166,7 +167,8 @@ class AsciiSource {
                                  element.rows, element.name));
   }
   void end_row() {
-    if (!text_.at_end_of_line()) text_.fail(fmt::format("{} is more than the header announces", quoted(text_.word())));
+    if (!text_.at_end_of_line())
+      text_.fail(fmt::format("{} is more than the header announces", in_quotes(text_.word())));
   }
   double value(Type type, const PlyColumn& column) {
     const double value = text_.number(column.name);
@@ -194,6 +196,7 @@ class BinarySource {
       : bytes_(bytes), swapped_(swapped), name_(std::move(name)) {}
 
   [[nodiscard]] std::size_t bytes_left() const { return bytes_.size(); }
+  [[nodiscard]] std::size_t most_values_left() const { return bytes_.size(); }
   static std::size_t least_bytes(const Layout& layout) { return size_of(layout.type); }
   void begin_row(const PlyElement& element, std::size_t row) {
     element_ = &element;
@@ -254,7 +257,7 @@ template <class Source>
 void read_list(Source& source, const Layout& layout, PlyColumn& column) {
   const double count = source.value(layout.count_type, column);
   if (!(count >= 0)) source.fail(fmt::format("list '{}' has the length {}: must not be negative", column.name, count));
-  if (count > static_cast<double>(source.bytes_left())) {
+  if (count > static_cast<double>(source.most_values_left())) {
     source.fail(fmt::format("list '{}' has the length {}, more than the file holds", column.name, count));
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {

@@ -72,7 +72,8 @@ Pose parse_pose_text(std::string_view bytes, const std::string& name) {
     for (int column = 0; column < 4; ++column) {
       matrix(row, column) = text.number(fmt::format("number {} of row {}", column + 1, row + 1));
     }
-    if (!text.at_end_of_line()) text.fail(fmt::format("{} is a fifth number, must be 4 per row", quoted(text.word())));
+    if (!text.at_end_of_line())
+      text.fail(fmt::format("{} is a fifth number, must be 4 per row", in_quotes(text.word())));
   }
   if (text.next_line_with_words()) text.fail("a fifth row, must be 4 rows of 4 numbers");
   return rigid_pose(matrix, name);
@@ -111,7 +112,8 @@ std::vector<StampedPose> parse_trajectory(std::string_view bytes, const std::str
     if (trimmed(text.rest_of_line())[0] == '#') continue;
     std::array<double, 8> n{};
     for (std::size_t i = 0; i < n.size(); ++i) n[i] = text.finite_number(columns[i]);
-    if (!text.at_end_of_line()) text.fail(fmt::format("{} is a ninth number, must be 8 per line", quoted(text.word())));
+    if (!text.at_end_of_line())
+      text.fail(fmt::format("{} is a ninth number, must be 8 per line", in_quotes(text.word())));
     if (!trajectory.empty() && n[0] <= trajectory.back().time) {
       text.fail(fmt::format("timestamp {}: must be later than {} of the line before", n[0], trajectory.back().time));
     }

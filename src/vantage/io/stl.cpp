@@ -52,8 +52,8 @@ TriangleMesh parse_binary(std::string_view bytes, const std::string& name) {
         const std::size_t at = header_bytes + t * triangle_bytes + 12 * (k + 1) + 4 * axis;  // the normal comes first
         vertex[static_cast<int>(axis)] = static_cast<double>(std::bit_cast<float>(uint32_at(bytes, at)));
       }
-      require(vertex.allFinite(), name, ": triangle ", t, " has a corner at (", vertex.transpose(),
-              "): must be finite numbers");
+      require(vertex.allFinite(), name, ": triangle ", t, " has a corner at ", in_brackets(vertex),
+              ": must be finite numbers");
       triangle[static_cast<int>(k)] = welder.index(mesh, vertex);
     }
     append_triangle(mesh, triangle);
@@ -89,7 +89,7 @@ TriangleMesh parse_ascii(std::string_view bytes, const std::string& name) {
     } else if (keyword == "solid") {
       complete = false;
     } else if (keyword != "outer" && keyword != "endloop") {
-      text.fail(fmt::format("{} is no keyword of an STL file", quoted(keyword)));
+      text.fail(fmt::format("{} is no keyword of an STL file", in_quotes(keyword)));
     }
   }
   if (inside || !complete) throw InputError(name + ": ends without 'endsolid'; the file is cut off");
@@ -103,7 +103,8 @@ TriangleMesh parse_stl_mesh(std::string_view bytes, const std::string& name) {
   const bool has_header = bytes.size() >= header_bytes;
   const std::uint64_t announced = has_header ? uint32_at(bytes, 80) : 0;
   if (has_header && bytes.size() == header_bytes + announced * triangle_bytes) return parse_binary(bytes, name);
-  if (trimmed(bytes.substr(0, 256)).substr(0, 5) == "solid") return parse_ascii(bytes, name);
+  const bool is_text = bytes.substr(0, 512).find('\0') == std::string_view::npos;
+  if (is_text && trimmed(bytes.substr(0, 512)).substr(0, 5) == "solid") return parse_ascii(bytes, name);
   if (!has_header)
     throw InputError(name + ": is not an STL file (shorter than its header and not starting with 'solid')");
   throw InputError(

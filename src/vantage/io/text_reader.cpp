@@ -33,7 +33,7 @@ std::optional<double> to_double(std::string_view text) { return to_number<double
 std::optional<std::int64_t> to_integer(std::string_view text) { return to_number<std::int64_t>(text); }
 std::optional<std::uint64_t> to_unsigned(std::string_view text) { return to_number<std::uint64_t>(text); }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string result = "'";
   for (const char c : text.substr(0, longest)) {
@@ -45,6 +45,8 @@ std::string quoted(std::string_view text) {
   }
   return result + (text.size() > longest ? "...'" : "'");
 }
+
+std::string in_brackets(const Vec3& point) { return fmt::format("({}, {}, {})", point.x(), point.y(), point.z()); }
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
@@ -84,7 +86,7 @@ double TextReader::number(std::string_view what) {
   const std::string_view text = word();
   if (text.empty()) fail(fmt::format("{} is missing", what));
   const auto value = to_double(text);
-  if (!value) fail(fmt::format("{} = {}: must be a number", what, quoted(text)));
+  if (!value) fail(fmt::format("{} = {}: must be a number", what, in_quotes(text)));
   return *value;
 }
 
@@ -98,7 +100,7 @@ std::int64_t TextReader::integer(std::string_view what) {
   const std::string_view text = word();
   if (text.empty()) fail(fmt::format("{} is missing", what));
   const auto value = to_integer(text);
-  if (!value) fail(fmt::format("{} = {}: must be a whole number", what, quoted(text)));
+  if (!value) fail(fmt::format("{} = {}: must be a whole number", what, in_quotes(text)));
   return *value;
 }
 
@@ -106,7 +108,7 @@ std::uint64_t TextReader::count(std::string_view what) {
   const std::string_view text = word();
   if (text.empty()) fail(fmt::format("{} is missing", what));
   const auto value = to_unsigned(text);
-  if (!value) fail(fmt::format("{} = {}: must be a whole number, not negative", what, quoted(text)));
+  if (!value) fail(fmt::format("{} = {}: must be a whole number, not negative", what, in_quotes(text)));
   return *value;
 }
 

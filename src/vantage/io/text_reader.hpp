@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "vantage/core/geometry.hpp"
+
 namespace vantage {
 
 /// The number that the whole text spells ("-1.5e-3", "+2", "nan", "inf"), in no locale; nothing otherwise.
@@ -13,7 +15,10 @@ namespace vantage {
 [[nodiscard]] std::optional<std::uint64_t> to_unsigned(std::string_view text);
 
 /// The text in quotes for an error message: shortened to 40 characters, with unprintable bytes as \xNN.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+/// The point as "(x, y, z)" for an error message.
+[[nodiscard]] std::string in_brackets(const Vec3& point);
 
 /// The text without spaces, tabs and line ends at both sides.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

@@ -24,10 +24,10 @@ TEST(Numbers, AreReadAsAWhole) {
   EXPECT_EQ(to_unsigned("-1"), std::nullopt);
 }
 
-TEST(Quoted, ShowsWhatIsThereInOneShortLine) {
-  EXPECT_EQ(quoted("abc"), "'abc'");
-  EXPECT_EQ(quoted(std::string_view("a\0\n\xff", 4)), "'a\\x00\\x0a\\xff'");
-  EXPECT_EQ(quoted(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
+TEST(InQuotes, ShowsWhatIsThereInOneShortLine) {
+  EXPECT_EQ(in_quotes("abc"), "'abc'");
+  EXPECT_EQ(in_quotes(std::string_view("a\0\n\xff", 4)), "'a\\x00\\x0a\\xff'");
+  EXPECT_EQ(in_quotes(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
 TEST(TextReader, WalksOverLinesAndWordsOfAnySystem) {
