@@ -3,6 +3,7 @@
 
 find_package(GTest REQUIRED)
 include(GoogleTest)
+option(VANTAGE_SLOW_TESTS "Build the slow tests too" ON)
 set(VANTAGE_SHARED_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH
   "Folder with object meshes and real scans; tests that need it skip where it does not exist")
 
@@ -17,7 +18,9 @@ function(vantage_test_program name directory)
   list(FILTER fast EXCLUDE REGEX "_slow_test\\.cpp$")
   list(FILTER slow INCLUDE REGEX "_slow_test\\.cpp$")
   vantage_add_tests(${name} "default" 240 "${fast}" ${ARGN})
-  vantage_add_tests(${name}_slow "slow" 2400 "${slow}" ${ARGN})
+  if(VANTAGE_SLOW_TESTS)
+    vantage_add_tests(${name}_slow "slow" 2400 "${slow}" ${ARGN})
+  endif()
 endfunction()
 
 function(vantage_add_tests name label seconds sources)

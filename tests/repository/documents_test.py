@@ -1,0 +1,44 @@
+"""The document check finds what it is there for."""
+
+import pathlib
+import tempfile
+import unittest
+
+import documents
+
+
+class FakeProgram(documents.Program):
+    """Has the command `plan` with `--top`, and `--version`."""
+
+    def __init__(self):
+        super().__init__(path=None)
+
+    def output(self, *arguments):
+        return {("--help",): "plan  --version", ("plan", "--help"): "  --top N  how many"}.get(arguments)
+
+
+class Documents(unittest.TestCase):
+    def messages(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "there.md").write_text("", encoding="utf-8")
+            return documents.check_text("a.md", text, pathlib.Path(folder), FakeProgram())
+
+    def test_calls_are_found_in_code_and_not_in_prose(self):
+        text = "vantage points are views\n`vantage plan`\n```\n./vantage plan scans --top 3  # note --other\n```\n"
+        self.assertEqual([(2, "plan", []), (4, "plan", ["--top"])], documents.commands(text))
+
+    def test_calls_that_work_pass(self):
+        self.assertEqual([], self.messages("`vantage plan --top 5`, `./vantage --version`, `./vantage test -L slow`"))
+
+    def test_unknown_commands_and_options_are_found(self):
+        self.assertEqual(["a.md:1: vantage has no command fly"], self.messages("`vantage fly`"))
+        self.assertEqual(["a.md:1: vantage plan has no option --speed"], self.messages("`vantage plan x --speed 3`"))
+        self.assertEqual(["a.md:1: vantage has no option --wings"], self.messages("`vantage --wings`"))
+
+    def test_links_to_missing_files_are_found(self):
+        self.assertEqual([], self.messages("[a](there.md#part) [b](https://example.org/x)"))
+        self.assertEqual(["a.md:1: link to gone.md, which is not there"], self.messages("[a](gone.md)"))
+
+
+if __name__ == "__main__":
+    unittest.main()
