@@ -27,13 +27,36 @@ constexpr int upper_block = wall_rings - 6 - block_height;
 
 double outer_radius(double z) { return base_radius + belly * std::sin(std::numbers::pi * (0.12 + 0.7 * z / height)); }
 
-std::vector<OutlinePoint> outer_wall() {
-  std::vector<OutlinePoint> points;
-  for (int i = 0; i <= wall_rings; ++i) {
-    const double z = foot + (height - wall / 2 - foot) * i / wall_rings;
-    points.emplace_back(outer_radius(z), z);
+/// Height of a wall ring; rings between the whole ones are meant too.
+double wall_height(double ring) { return foot + (height - wall / 2 - foot) * ring / wall_rings; }
+
+/// Moves the corners of a block's border inwards, so that the border becomes an oval, and its surroundings by less and
+/// less. Places are counted from the block's middle in half its sides.
+Eigen::Vector2d rounded(const Eigen::Vector2d& place) {
+  const double square_radius = place.cwiseAbs().maxCoeff();  // 1 on the border
+  if (square_radius == 0 || square_radius >= 2) return place;
+  const double share = std::min(1.0, 2 - square_radius);
+  const double round_scale = square_radius / place.norm();
+  return place * (1 - share + share * round_scale);
+}
+
+/// A vertex of the outer wall. Around angle 0 the grid of rings and columns gives way to the ends of the handle.
+Vec3 wall_point(int ring, int column) {
+  const int signed_column = column < segments / 2 ? column : column - segments;
+  double moved_ring = ring;
+  double moved_column = signed_column;
+  for (const int block : {lower_block, upper_block}) {
+    const double middle = block + 0.5 * block_height;
+    const Eigen::Vector2d place(static_cast<double>(signed_column) / block_half_width,
+                                (ring - middle) / (0.5 * block_height));
+    const Eigen::Vector2d moved = rounded(place);
+    if (moved == place) continue;
+    moved_column = moved.x() * block_half_width;
+    moved_ring = middle + moved.y() * 0.5 * block_height;
   }
-  return points;
+  const double angle = 2 * std::numbers::pi * moved_column / segments;
+  const double z = wall_height(moved_ring);
+  return {outer_radius(z) * std::cos(angle), outer_radius(z) * std::sin(angle), z};
 }
 
 /// From the top of the outer wall over the rim and down the inside to the middle of the floor.
@@ -163,20 +186,25 @@ TriangleMesh mug_shape() {
   };
   for (std::size_t i = 1; i < base.size(); ++i) go_on(base[i]);
 
-  const std::vector<OutlinePoint> outside = outer_wall();
-  go_on(outside.front());
-  std::vector<Ring> rings{last};
+  std::vector<Ring> rings;
+  for (int ring = 0; ring <= wall_rings; ++ring) {
+    std::vector<Vec3> points;
+    for (int column = 0; column < segments; ++column) points.push_back(wall_point(ring, column));
+    rings.push_back(surface.add_ring(points));
+  }
+  surface.join(last, rings.front());
   for (int band = 0; band < wall_rings; ++band) {
-    rings.push_back(surface.add_circle(outside[static_cast<std::size_t>(band) + 1], segments));
     for (int column = 0; column < segments; ++column) {
       if (in_block(band, column)) continue;
-      surface.join_segment(rings[static_cast<std::size_t>(band)], rings.back(), static_cast<std::size_t>(column));
+      surface.join_segment(rings[static_cast<std::size_t>(band)], rings[static_cast<std::size_t>(band) + 1],
+                           static_cast<std::size_t>(column));
     }
   }
   add_handle(surface, block_border(rings, upper_block), turned_over(block_border(rings, lower_block)));
 
   last = rings.back();
-  for (const OutlinePoint& point : inside(outside.back())) go_on(point);
+  const double top = wall_height(wall_rings);
+  for (const OutlinePoint& point : inside({outer_radius(top), top})) go_on(point);
   surface.close_end(last, {0, 0, floor_height});
   return std::move(surface).take();
 }

@@ -17,8 +17,9 @@ struct BuiltIn {
 };
 
 constexpr std::array built_in{
-    BuiltIn{"sphere", 0.815, sphere_shape},
-    BuiltIn{"mug", 0.815, mug_shape},
+    BuiltIn{"sphere", 0.815, sphere_shape},    BuiltIn{"pear", 0.815, pear_shape},
+    BuiltIn{"banana", 0.815, banana_shape},    BuiltIn{"mug", 0.815, mug_shape},
+    BuiltIn{"sgi_logo", 1.09, sgi_logo_shape},
 };
 
 const BuiltIn& find(const std::string& name) {
