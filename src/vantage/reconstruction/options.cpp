@@ -1,0 +1,153 @@
+#include "vantage/reconstruction/options.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+double number_from_text(const std::string& option, const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  require(error == std::errc() && end == text.data() + text.size() && std::isfinite(value), option, ": '", text,
+          "' is not a number");
+  return value;
+}
+
+std::vector<Box3> boxes_from_text(const std::string& option, const std::string& text) {
+  std::vector<Box3> boxes;
+  for (const std::string& part : split(text, ';')) {
+    if (part.empty()) continue;
+    const std::vector<double> n = numbers_from_text(option, part, 6);
+    const Vec3 center(n[0], n[1], n[2]);
+    const Vec3 half = 0.5 * Vec3(n[3], n[4], n[5]);
+    require((half.array() > 0).all(), option, ": '", part, "': the sizes must be positive");
+    boxes.emplace_back(center - half, center + half);
+  }
+  return boxes;
+}
+
+void require_one_of(const std::string& option, const std::string& value, const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    if (name == value) return;
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  throw InputError(concat(option, " = '", value, "': must be one of: ", list));
+}
+
+}  // namespace
+
+std::vector<double> numbers_from_text(const std::string& option, const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, ',')) numbers.push_back(number_from_text(option, part));
+  require(numbers.size() == count, option, ": '", text, "' has ", numbers.size(), " numbers; must have ", count);
+  return numbers;
+}
+
+Resolution resolution_from_text(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = split(text, 'x');
+  require(parts.size() == 2, option, ": '", text, "' must be COLUMNSxROWS, for example 320x240");
+  Resolution resolution;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double value = number_from_text(option, parts[i]);
+    require(value >= 1 && value <= 16384 && value == std::floor(value), option, ": '", parts[i],
+            "' must be a whole number in 1..16384");
+    (i == 0 ? resolution.columns : resolution.rows) = static_cast<int>(value);
+  }
+  return resolution;
+}
+
+RangeCamera camera_from_text(const std::string& text) {
+  const std::vector<std::string> parts = split(text, ':');
+  const std::vector<std::string> apertures = split(parts[0], 'x');
+  require(parts.size() == 2 && apertures.size() == 2, "camera: '", text,
+          "' must be HxV:COLUMNSxROWS with apertures in degrees, for example 45x45:320x320");
+  return camera_from_apertures(radians(number_from_text("camera", apertures[0])),
+                               radians(number_from_text("camera", apertures[1])),
+                               resolution_from_text("camera", parts[1]));
+}
+
+RayChoice rays_from_text(const std::string& text) {
+  if (text == "sensor") return {RayChoice::Kind::sensor, {}};
+  if (text == "ideal") return {RayChoice::Kind::ideal, {}};
+  return {RayChoice::Kind::fixed, resolution_from_text("rays", text)};
+}
+
+void ReconstructOptions::validate() const {
+  require(!size || (*size > 0 && std::isfinite(*size)), "size = ", size.value_or(0), " m: must be positive");
+  require((depth_noise.array() >= 0).all() && depth_noise.allFinite(), "depth-noise = ", depth_noise.transpose(),
+          ": must not be negative");
+  require((positioning_error.array() >= 0).all() && positioning_error.allFinite(),
+          "positioning-error = ", positioning_error.transpose(), " m: standard deviations must not be negative");
+  require_one_of("quality", quality, {"axis", "ray"});
+  require_one_of("search", search, {"exhaustive", "multi-resolution"});
+  require_one_of("registration", registration, {"truth", "none", "icp"});
+  require(initial_view >= 0, "initial-view = ", initial_view, ": must not be negative");
+  scene_options().validate();
+  range_camera().validate();
+  planner_options().validate();
+  budget().validate();
+}
+
+SceneOptions ReconstructOptions::scene_options() const { return {center, voxel, scene, enclosure}; }
+
+RangeCamera ReconstructOptions::range_camera() const {
+  RangeCamera result = camera_from_text(camera);
+  result.min_depth = depth_range[0];
+  result.max_depth = depth_range[1];
+  if (max_incidence) result.max_incidence = radians(*max_incidence);
+  result.validate();
+  return result;
+}
+
+PlannerOptions ReconstructOptions::planner_options() const {
+  PlannerOptions result;
+  result.search = search == "exhaustive" ? SearchKind::exhaustive : SearchKind::multi_resolution;
+  result.rays = rays_from_text(rays);
+  result.multi_resolution = {multi_resolution_b, multi_resolution_stages, multi_resolution_columns};
+  result.utility = utility;
+  result.factors = {alpha_oc, alpha_op, rho, navigation};
+  result.reach.body_radius = body_radius;
+  if (workspace) {
+    const std::vector<double> n = numbers_from_text("workspace", *workspace, 6);
+    result.reach.workspace = Box3(Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]));
+  }
+  if (obstacles) result.reach.obstacles = boxes_from_text("obstacles", *obstacles);
+  result.stop_occplane = stop_occplane;
+  return result;
+}
+
+Budget ReconstructOptions::budget() const {
+  Budget result;
+  result.max_views = max_views;
+  if (max_distance) result.max_distance = *max_distance;
+  if (max_time) result.max_time = *max_time;
+  return result;
+}
+
+QualityReference ReconstructOptions::quality_reference() const {
+  return quality == "ray" ? QualityReference::ray : QualityReference::axis;
+}
+
+SimulatedRobotOptions ReconstructOptions::robot_options() const {
+  return {PositioningError::from_deviations(positioning_error), registration == "icp"};
+}
+
+Candidates ReconstructOptions::candidate_views() const { return candidates_from_text(candidates, center); }
+
+}  // namespace vantage

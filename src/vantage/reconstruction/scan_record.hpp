@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "vantage/search/search.hpp"
+
+namespace vantage {
+
+/// Seconds that the steps of one scan took.
+struct ScanTimings {
+  double plan = 0;
+  double scan = 0;
+  double registration = 0;
+  double integration = 0;
+
+  [[nodiscard]] double total() const { return plan + scan + registration + integration; }
+};
+
+/// Voxels of each label in the enclosure after a scan.
+struct LabelCounts {
+  std::int64_t unmarked = 0, occupied = 0, empty = 0, occluded = 0, occplane = 0;
+};
+
+/// One scan of a reconstruction: where from, why, and what it brought (a row of views.csv; spec, section 10).
+struct ScanRecord {
+  int scan = 0;        // from 0
+  int candidate = -1;  // -1: not one of the candidate views
+  View commanded, believed, registered;
+  std::optional<Evaluation> planned;  // what the planner expected; nothing for scans it did not choose
+  std::string reason;                 // why this view was taken
+
+  LabelCounts labels;
+  std::int64_t new_occupied = 0;
+  double mean_quality = 0;
+  double distance = 0;                           // metres travelled so far, without the way to the first view
+  std::optional<double> coverage, coverage_all;  // known in simulation only
+  std::optional<View> true_view;                 // known in simulation only
+
+  bool merged = true;   // false where registration failed: kept, but not in the map
+  double overlap = 1;   // share of the scan that lies on the model, as registration saw it
+  double residual = 0;  // metres
+  std::string verdict;
+  ScanTimings timings;
+};
+
+}  // namespace vantage

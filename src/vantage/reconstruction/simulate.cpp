@@ -1,0 +1,55 @@
+#include "vantage/reconstruction/simulate.hpp"
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+TriangleMesh placed(const TriangleMesh& mesh, double size, const Vec3& center) {
+  TriangleMesh object = centred_and_scaled(mesh, size);
+  for (Vec3& vertex : object.vertices) vertex += center;
+  return object;
+}
+
+std::unique_ptr<Registrar> make_registrar(const ReconstructOptions& options, const SimulatedRobot& robot) {
+  if (options.registration == "truth") {
+    return std::make_unique<TruthRegistrar>([&robot] { return robot.true_view(); });
+  }
+  if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
+  return std::make_unique<IcpRegistrar>();
+}
+
+}  // namespace
+
+SimulatedObject::SimulatedObject(const TriangleMesh& mesh, double size, const ReconstructOptions& options)
+    : scanner_(std::make_unique<RangeScanner>(placed(mesh, size, options.center))) {
+  const SceneOptions scene = options.scene_options();
+  truth_ = std::make_unique<GroundTruth>(*scanner_, scene.grid(), scene.enclosure(), options.range_camera(),
+                                         visibility_views(options.candidate_views()));
+}
+
+SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& options, const RunObserver& observer) {
+  options.validate();
+  SimulatedRun run{ObjectModel(options.scene_options(), options.point_spacing()), {}};
+  Planner planner(options.candidate_views(), options.range_camera(), options.planner_options());
+  const ReachOptions reach = options.planner_options().reach;
+  SimulatedRobot robot(object.scanner(), options.range_camera(), options.robot_options(), options.seed,
+                       [&](const View& view) { return !why_infeasible(run.model.map, view, reach); });
+  const std::unique_ptr<Registrar> registrar = make_registrar(options, robot);
+
+  Reconstruction loop(robot, planner, *registrar);
+  loop.budget = options.budget();
+  loop.quality = options.quality_reference();
+  loop.interrupted = observer.interrupted;
+  loop.on_scan = [&](ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
+    record.true_view = robot.true_view();
+    record.coverage = object.truth().coverage(model.map);
+    record.coverage_all = object.truth().coverage_all(model.map);
+    observer.on_scan(record, scan, model, plan);
+  };
+  loop.run(run.model, options.initial_view);
+  run.stop_reason = loop.stop_reason();
+  return run;
+}
+
+}  // namespace vantage
