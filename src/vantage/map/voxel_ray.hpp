@@ -24,7 +24,10 @@ struct LatticeRay {
   Index3 origin_cell;
 
   LatticeRay(const Grid& grid, const Vec3& ray_origin, const Vec3& ray_direction)
-      : origin(ray_origin), direction(ray_direction), origin_cell(grid.index_of(ray_origin)) {
+      : LatticeRay(ray_origin, grid.index_of(ray_origin), ray_direction) {}
+  /// For many rays from one place, whose voxel is known.
+  LatticeRay(const Vec3& ray_origin, const Index3& cell_of_origin, const Vec3& ray_direction)
+      : origin(ray_origin), direction(ray_direction), origin_cell(cell_of_origin) {
     for (int a = 0; a < 3; ++a) {
       const double reciprocal = 1 / direction[a];
       const bool moves = direction[a] != 0 && std::isfinite(reciprocal);

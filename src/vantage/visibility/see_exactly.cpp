@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "vantage/map/voxel_ray.hpp"
+#include "vantage/visibility/facing.hpp"
 #include "vantage/visibility/visibility.hpp"
 
 namespace vantage {
@@ -10,7 +11,7 @@ namespace {
 /// Turned from the sensor by more than the incidence limit. Voxels without a normal pass.
 bool beyond_incidence(const VoxelMap& map, const Index3& voxel, const Vec3& axis, double min_cosine) {
   const Vec3 normal = map.surface(voxel)->normal();
-  return !normal.isZero(0) && -axis.dot(normal) < min_cosine;
+  return !normal.isZero(0) && facing_cosine(axis, normal) < min_cosine;
 }
 
 /// Voxels that end rays, each once.
@@ -57,7 +58,7 @@ void count_voxel(Visibility& seen, const VoxelMap& map, const Index3& voxel, con
   switch (map.label(voxel)) {
     case Label::occupied:
       ++seen.occupied;
-      seen.cosine_sum += to_fixed_point(std::max(0.0, -axis.dot(map.surface(voxel)->normal())));
+      seen.cosine_sum += to_fixed_point(std::max(0.0, facing_cosine(axis, map.surface(voxel)->normal())));
       break;
     case Label::occplane:
       ++seen.occplane;

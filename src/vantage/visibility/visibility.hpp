@@ -1,6 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,18 +42,32 @@ void count_voxel(Visibility& seen, const VoxelMap& map, const Index3& voxel, con
                                           Resolution resolution);
 
 /// What many views would see of one state of the map; prepared once per map, then shared by all threads. Gives what
-/// see_exactly gives. The map must outlive the evaluator and not change meanwhile.
+/// see_exactly gives, by splatting voxels front to back instead of casting rays (docs/performance.md). The map must
+/// outlive the evaluator and not change meanwhile.
 class VisibilityEvaluator {
  public:
-  explicit VisibilityEvaluator(const VoxelMap& map) : map_(&map) {}
+  explicit VisibilityEvaluator(const VoxelMap& map);
+  ~VisibilityEvaluator();
+  VisibilityEvaluator(VisibilityEvaluator&&) noexcept;
+  VisibilityEvaluator& operator=(VisibilityEvaluator&&) noexcept;
 
   [[nodiscard]] Visibility see(const RangeCamera& camera, const View& view, Resolution resolution) const;
   /// All views at their own resolutions (one, or one per view), in parallel; the same for any number of threads.
   [[nodiscard]] std::vector<Visibility> see(const RangeCamera& camera, std::span<const View> views,
                                             std::span<const Resolution> resolutions) const;
+  /// The same, view after view in the given order of indices, until the deadline: no view is begun after it. Views that
+  /// were not evaluated are nullopt.
+  [[nodiscard]] std::vector<std::optional<Visibility>> see_until(std::chrono::steady_clock::time_point deadline,
+                                                                 const RangeCamera& camera, std::span<const View> views,
+                                                                 std::span<const Resolution> resolutions,
+                                                                 std::span<const std::size_t> order) const;
+  /// The voxels that are counted, in scene indices and sorted with x fastest: what visible_voxels_exactly gives.
+  [[nodiscard]] std::vector<Index3> visible_voxels(const RangeCamera& camera, const View& view,
+                                                   Resolution resolution) const;
 
  private:
-  const VoxelMap* map_;
+  struct Prepared;
+  std::unique_ptr<const Prepared> prepared_;
 };
 
 }  // namespace vantage
