@@ -1,0 +1,56 @@
+/** The candidate views as small cameras coloured by utility. */
+import * as THREE from "three";
+import type { Camera, Candidates } from "../data/run.ts";
+import type { Rgb } from "../model/colors.ts";
+import { imageCorners, matrixOf } from "./geometry.ts";
+
+const VERTICES = 18; // four sides and two halves of the image
+
+/** All candidates in one geometry: pyramids with the tip at the sensor. */
+export class CameraLayer {
+  readonly mesh: THREE.Mesh;
+  readonly positions: THREE.Vector3[] = [];
+  private readonly colors: THREE.BufferAttribute;
+
+  constructor(
+    readonly candidates: Candidates,
+    camera: Camera,
+    length: number,
+  ) {
+    const corners = imageCorners(camera, 1).map((p) => p.setZ(0).normalize().multiplyScalar(0.62 * length).setZ(length));
+    const tip = new THREE.Vector3();
+    const local = [0, 1, 2, 3].flatMap((k) => [tip, corners[(k + 1) % 4], corners[k]]);
+    local.push(corners[0], corners[1], corners[2], corners[0], corners[2], corners[3]);
+    const vertices = new Float32Array(3 * VERTICES * candidates.count);
+    const moved = new THREE.Vector3();
+    for (let i = 0; i < candidates.count; ++i) {
+      const matrix = matrixOf(candidates.poses, 7 * i);
+      this.positions.push(new THREE.Vector3().setFromMatrixPosition(matrix));
+      local.forEach((p, k) => moved.copy(p).applyMatrix4(matrix).toArray(vertices, 3 * (VERTICES * i + k)));
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
+    this.colors = new THREE.BufferAttribute(new Uint8Array(4 * VERTICES * candidates.count), 4, true);
+    geometry.setAttribute("color", this.colors);
+    const material = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true });
+    this.mesh = new THREE.Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+    this.mesh.renderOrder = 3;
+  }
+
+  /** `color` and opacity (0 to 1) per candidate. */
+  paint(color: (index: number) => { rgb: Rgb; alpha: number }): void {
+    const shades = [1, 0.78, 0.6, 0.88, 0.95];
+    const array = this.colors.array as Uint8Array;
+    for (let i = 0; i < this.candidates.count; ++i) {
+      const { rgb, alpha } = color(i);
+      for (let k = 0; k < VERTICES; ++k) {
+        const shade = shades[Math.min(4, Math.floor(k / 3))];
+        const at = 4 * (VERTICES * i + k);
+        for (let c = 0; c < 3; ++c) array[at + c] = Math.min(255, rgb[c] * shade);
+        array[at + 3] = 255 * alpha;
+      }
+    }
+    this.colors.needsUpdate = true;
+  }
+}

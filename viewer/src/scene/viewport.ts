@@ -1,0 +1,187 @@
+/** The canvas: camera, orbiting, drawing on demand, and the translation between pixels and rays. */
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+
+// Colours are the page's own, written straight to the screen.
+THREE.ColorManagement.enabled = false;
+
+/** While moving, frames slower than this are drawn with fewer pixels; at rest always with all. */
+const SLOW_FRAME_MS = 45;
+const MIN_SCALE = 0.5;
+
+export class Viewport {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(42, 1, 0.01, 100);
+  readonly controls: OrbitControls;
+  /** Called before every frame. */
+  beforeFrame: () => void = () => {};
+  /** Milliseconds of the last frames, for measurements. */
+  readonly frameTimes: number[] = [];
+
+  private readonly renderer: THREE.WebGLRenderer;
+  private pending = false;
+  private scale = 1;
+  private moving = false;
+  private rest = 0;
+  private size = { width: 1, height: 1 };
+  private home = { position: new THREE.Vector3(1, -1, 1), target: new THREE.Vector3() };
+
+  constructor(private readonly element: HTMLElement) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute(
+      "aria-label",
+      "3D scene: voxels, candidate views and the path of the scans. Arrow keys orbit, plus and minus zoom, Home resets.",
+    );
+    element.append(canvas);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener("change", () => this.onMove());
+    canvas.addEventListener("keydown", (event) => this.onKey(event));
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#707078", 2.2));
+    const sun = new THREE.DirectionalLight("#ffffff", 1.6);
+    sun.position.set(-0.35, -0.55, 0.75);
+    this.scene.add(sun);
+    new ResizeObserver(() => this.resize()).observe(element);
+    this.resize();
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+
+  setBackground(color: string): void {
+    this.renderer.setClearColor(color);
+    this.requestFrame();
+  }
+
+  /** Looks at `target` from the front, upper left, so that a ball of `radius` fits. */
+  frame(target: THREE.Vector3, radius: number): void {
+    const fit = radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    const aspect = Math.min(1, this.size.width / this.size.height);
+    const position = new THREE.Vector3(0.5, -0.95, 0.55).normalize().multiplyScalar(fit / Math.max(0.55, aspect));
+    this.home = { position: position.add(target), target };
+    this.goHome();
+  }
+
+  goHome(): void {
+    this.camera.position.copy(this.home.position);
+    this.controls.target.copy(this.home.target);
+    const distance = this.home.position.distanceTo(this.home.target);
+    this.camera.near = distance / 200;
+    this.camera.far = distance * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.requestFrame();
+  }
+
+  /** Turns about the target by angles in radians, and moves closer (`zoom` < 1) or away. */
+  orbit(azimuth: number, elevation: number, zoom = 1): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const s = new THREE.Spherical().setFromVector3(new THREE.Vector3(offset.x, offset.z, -offset.y));
+    s.theta += azimuth;
+    s.phi = THREE.MathUtils.clamp(s.phi - elevation, 0.02, Math.PI - 0.02);
+    s.radius *= zoom;
+    const p = new THREE.Vector3().setFromSpherical(s);
+    this.camera.position.set(p.x, -p.z, p.y).add(this.controls.target);
+    this.controls.update();
+    this.onMove();
+  }
+
+  requestFrame(): void {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => {
+      this.pending = false;
+      this.draw();
+    });
+  }
+
+  /** Where a point of the world is on the canvas, in CSS pixels; null behind the camera. */
+  project(point: THREE.Vector3): { x: number; y: number; depth: number } | null {
+    const p = point.clone().project(this.camera);
+    if (p.z > 1 || p.z < -1) return null;
+    const depth = point.distanceTo(this.camera.position);
+    return { x: ((p.x + 1) / 2) * this.size.width, y: ((1 - p.y) / 2) * this.size.height, depth };
+  }
+
+  /** The ray through a point of the canvas, in CSS pixels. */
+  ray(x: number, y: number): THREE.Ray {
+    const caster = new THREE.Raycaster();
+    const at = new THREE.Vector2((2 * x) / this.size.width - 1, 1 - (2 * y) / this.size.height);
+    this.camera.updateMatrixWorld();
+    caster.setFromCamera(at, this.camera);
+    return caster.ray;
+  }
+
+  /** Draws now and waits until the pixels exist; returns the milliseconds that took. */
+  drawNow(): number {
+    const start = performance.now();
+    this.camera.updateMatrixWorld();
+    this.beforeFrame();
+    this.renderer.render(this.scene, this.camera);
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    return performance.now() - start;
+  }
+
+  private draw(): void {
+    const time = this.moving ? this.drawNow() : (this.beforeFrame(), this.renderer.render(this.scene, this.camera), 0);
+    if (!this.moving) return;
+    this.frameTimes.push(time);
+    if (this.frameTimes.length > 120) this.frameTimes.shift();
+    if (time > SLOW_FRAME_MS && this.scale > MIN_SCALE) this.setScale(Math.max(MIN_SCALE, this.scale * 0.8));
+  }
+
+  private onMove(): void {
+    this.moving = true;
+    window.clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => {
+      this.moving = false;
+      this.setScale(1);
+      this.requestFrame();
+    }, 180);
+    this.requestFrame();
+  }
+
+  private setScale(scale: number): void {
+    if (scale === this.scale) return;
+    this.scale = scale;
+    this.applySize();
+  }
+
+  private applySize(): void {
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio) * this.scale);
+    this.renderer.setSize(this.size.width, this.size.height);
+  }
+
+  private resize(): void {
+    this.size = { width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight) };
+    this.camera.aspect = this.size.width / this.size.height;
+    this.camera.updateProjectionMatrix();
+    this.applySize();
+    this.requestFrame();
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const turns: Record<string, () => void> = {
+      ArrowLeft: () => this.orbit(-0.1, 0),
+      ArrowRight: () => this.orbit(0.1, 0),
+      ArrowUp: () => this.orbit(0, 0.1),
+      ArrowDown: () => this.orbit(0, -0.1),
+      "+": () => this.orbit(0, 0, 0.9),
+      "=": () => this.orbit(0, 0, 0.9),
+      "-": () => this.orbit(0, 0, 1.1),
+      Home: () => this.goHome(),
+    };
+    const turn = turns[event.key];
+    if (!turn || event.ctrlKey || event.metaKey || event.altKey) return;
+    turn();
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}
