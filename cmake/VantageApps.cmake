@@ -15,10 +15,13 @@ vantage_require(full nlohmann_json)
 vantage_require(full yaml-cpp)
 vantage_require(full PNG)
 vantage_require(full liblzf)
+vantage_require(full ZLIB)
 vantage_library(full reconstruction io experiments)
 target_link_libraries(vantage_full
   PUBLIC vantage_core vantage_registration vantage_simulation nlohmann_json::nlohmann_json
-  PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf)
+  PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf ZLIB::ZLIB)
+include(VantageViewer)
+target_sources(vantage_full PRIVATE ${vantage_viewer_source})
 
 find_package(CLI11 REQUIRED)
 file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)

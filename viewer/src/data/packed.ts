@@ -15,8 +15,17 @@ const arrays = {
   i32: Int32Array,
   f32: Float32Array,
 } as const;
-export type NumberType = keyof typeof arrays;
-export type ArrayOf<T extends NumberType> = InstanceType<(typeof arrays)[T]>;
+interface ArrayTypes {
+  u8: Uint8Array;
+  i8: Int8Array;
+  u16: Uint16Array;
+  i16: Int16Array;
+  u32: Uint32Array;
+  i32: Int32Array;
+  f32: Float32Array;
+}
+export type NumberType = keyof ArrayTypes;
+export type ArrayOf<T extends NumberType> = ArrayTypes[T];
 
 /** More bytes than this in one array is a broken document, not a big one. */
 const MAX_BYTES = 2 ** 30;
@@ -80,9 +89,9 @@ export function unpack<T extends NumberType>(
   }
   if (bytes.length !== size) fail(field, `holds ${bytes.length} bytes, its shape needs ${size}`);
   const aligned = bytes.byteOffset === 0 && bytes.buffer.byteLength === size ? bytes : bytes.slice();
-  if (packed["delta"] !== true) return new Type(aligned.buffer as ArrayBuffer) as ArrayOf<T>;
+  if (packed["delta"] !== true) return new Type(aligned.buffer as ArrayBuffer) as unknown as ArrayOf<T>;
   if (type === "f32") fail(field, "f32 cannot be stored as differences");
-  return undoDelta(aligned, new Type(n * c) as ArrayOf<T>, n, c);
+  return undoDelta(aligned, new Type(n * c) as unknown as ArrayOf<T>, n, c);
 }
 
 /** Byte planes of differences back to numbers. */

@@ -1,8 +1,8 @@
 /** Colours of the page. Label colours are Okabe and Ito's, told apart by colour-blind people; scales are viridis. */
 export type Rgb = [number, number, number];
 
-/** Per label: unmarked, occupied, empty, occluded, occplane. */
-export const LABEL_COLORS: readonly string[] = ["#9aa0a6", "#e69f00", "#56b4e9", "#cc79a7", "#0072b2"];
+/** Per label: unmarked, occupied, empty, occluded, occplane; the same as in the program's pictures. */
+export const LABEL_COLORS: readonly string[] = ["#8c8c8c", "#0072b2", "#f4f6f8", "#cc79a7", "#e69f00"];
 
 export function parseHex(hex: string): Rgb {
   const n = parseInt(hex.slice(1), 16);

@@ -1,0 +1,113 @@
+/** Experiment documents of docs/report-data.md. */
+import { asObject, fail } from "./packed.ts";
+import { checkVersion } from "./run.ts";
+
+export type Cell = number | string | null;
+
+export interface Figure {
+  title: string;
+  x_label: string;
+  y_label: string;
+  y_min?: number;
+  y_max?: number;
+  series: { name: string; x: number[]; y: (number | null)[]; low?: (number | null)[]; high?: (number | null)[]; paper: boolean }[];
+}
+
+export interface Table {
+  title: string;
+  columns: string[];
+  rows: Cell[][];
+  paper_columns: number[];
+  verdict_column: number | null;
+  note: string;
+}
+
+export interface Experiment {
+  title: string;
+  text: string[];
+  figures: Figure[];
+  tables: Table[];
+}
+
+function list(value: unknown, field: string): unknown[] {
+  if (!Array.isArray(value)) fail(field, "must be a list");
+  return value;
+}
+
+function text(value: unknown, field: string): string {
+  if (typeof value !== "string") fail(field, "must be text");
+  return value;
+}
+
+function numbers(value: unknown, field: string, length?: number): number[] {
+  const values = list(value, field);
+  if (length !== undefined && values.length !== length) fail(field, `has ${values.length} numbers, must have ${length}`);
+  if (!values.every((v) => typeof v === "number" && Number.isFinite(v))) fail(field, "must hold numbers only");
+  return values as number[];
+}
+
+/** As `numbers`, but a missing one may be null. */
+function gappy(value: unknown, field: string, length: number): (number | null)[] {
+  const values = list(value, field).map((v) => v ?? NaN);
+  if (values.length !== length) fail(field, `has ${values.length} numbers, must have ${length}`);
+  if (!values.every((v) => typeof v === "number")) fail(field, "must hold numbers or null");
+  return (values as number[]).map((v) => (Number.isFinite(v) ? v : null));
+}
+
+function decodeFigure(value: unknown, field: string): Figure {
+  const raw = asObject(value, field);
+  const series = list(raw["series"], `${field}.series`).map((item, i) => {
+    const at = `${field}.series[${i}]`;
+    const s = asObject(item, at);
+    const x = numbers(s["x"], `${at}.x`);
+    return {
+      name: text(s["name"], `${at}.name`),
+      x,
+      y: gappy(s["y"], `${at}.y`, x.length),
+      ...(s["low"] && s["high"]
+        ? { low: gappy(s["low"], `${at}.low`, x.length), high: gappy(s["high"], `${at}.high`, x.length) }
+        : {}),
+      paper: s["paper"] === true,
+    };
+  });
+  const optional = (key: string) => (typeof raw[key] === "number" ? { [key]: raw[key] as number } : {});
+  return {
+    title: text(raw["title"], `${field}.title`),
+    x_label: text(raw["x_label"], `${field}.x_label`),
+    y_label: text(raw["y_label"], `${field}.y_label`),
+    ...optional("y_min"),
+    ...optional("y_max"),
+    series,
+  };
+}
+
+function decodeTable(value: unknown, field: string): Table {
+  const raw = asObject(value, field);
+  const columns = list(raw["columns"], `${field}.columns`).map((c, i) => text(c, `${field}.columns[${i}]`));
+  const rows = list(raw["rows"], `${field}.rows`).map((row, i) => {
+    const cells = list(row, `${field}.rows[${i}]`);
+    if (cells.length !== columns.length) fail(`${field}.rows[${i}]`, `has ${cells.length} cells for ${columns.length} columns`);
+    return cells.map((c) => (typeof c === "number" || c === null ? c : String(c)));
+  });
+  return {
+    title: text(raw["title"], `${field}.title`),
+    columns,
+    rows,
+    paper_columns: raw["paper_columns"] ? numbers(raw["paper_columns"], `${field}.paper_columns`) : [],
+    verdict_column: typeof raw["verdict_column"] === "number" ? raw["verdict_column"] : null,
+    note: typeof raw["note"] === "string" ? raw["note"] : "",
+  };
+}
+
+/** Throws DataError naming the field where the document is not as documented. */
+export function decodeExperiment(value: unknown): Experiment {
+  const raw = asObject(value, "the document");
+  checkVersion(raw);
+  const paragraphs = raw["text"] === undefined ? [] : typeof raw["text"] === "string" ? [raw["text"]] : list(raw["text"], "text");
+  return {
+    title: text(raw["title"], "title"),
+    text: paragraphs.map((p, i) => text(p, `text[${i}]`)),
+    figures: list(raw["figures"] ?? [], "figures").map((f, i) => decodeFigure(f, `figures[${i}]`)),
+    tables: list(raw["tables"] ?? [], "tables").map((t, i) => decodeTable(t, `tables[${i}]`)),
+  };
+}

@@ -1,0 +1,67 @@
+/** The page of an experiment: figures and tables against the paper's values. */
+import { decodeExperiment, type Cell, type Experiment, type Figure, type Table } from "../data/experiment.ts";
+import { lineChart, type Series } from "./charts.ts";
+import { h } from "./dom.ts";
+import { significant } from "./format.ts";
+import { theme } from "./theme.ts";
+
+const COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+const DASHES = [undefined, "8 3", "2 3", "10 3 2 3", "5 5", "1 4"];
+
+function figure(f: Figure): HTMLElement {
+  const x = [...new Set(f.series.flatMap((s) => s.x))].sort((a, b) => a - b);
+  const spread = (xs: number[], ys: (number | null)[] | undefined) =>
+    ys && x.map((value) => { const i = xs.indexOf(value); return i < 0 ? null : ys[i]; }); // prettier-ignore
+  let own = 0;
+  const series = f.series.map((s): Series => {
+    const i = s.paper ? 0 : own++ % COLORS.length;
+    return {
+      name: s.paper ? `${s.name} (paper)` : s.name,
+      color: s.paper ? "var(--ink-2)" : COLORS[i],
+      dash: s.paper ? "3 3" : DASHES[i],
+      values: spread(s.x, s.y)!,
+      low: spread(s.x, s.low),
+      high: spread(s.x, s.high),
+    };
+  });
+  const chart = lineChart(series, { title: f.title, unit: f.y_label, x, xLabel: f.x_label, min: f.y_min, max: f.y_max, width: 560, height: 260, format: (v) => significant(v, 4) }, (i) => chart.mark(i));
+  chart.mark(x.length - 1);
+  return h("div", { class: "card" }, chart.element, h("p", { class: "note" }, f.x_label));
+}
+
+function table(t: Table): HTMLElement {
+  const text = (cell: Cell) => (typeof cell === "number" ? significant(cell, 4) : cell === null ? "–" : cell);
+  const kind = (column: number, cell: Cell) => {
+    if (t.paper_columns.includes(column)) return "paper";
+    if (t.verdict_column !== column) return typeof cell === "number" ? null : "text";
+    return /^(ok|yes|pass|in band)/i.test(String(cell)) ? "text good" : "text bad";
+  };
+  return h(
+    "section",
+    { class: "card" },
+    h("h2", {}, t.title),
+    t.note ? h("p", { class: "note" }, t.note) : null,
+    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t.title },
+      h("table", {},
+        h("thead", {}, h("tr", {}, ...t.columns.map((c, i) => h("th", { scope: "col", class: kind(i, 0) === "paper" ? "paper" : null }, c)))),
+        h("tbody", {}, ...t.rows.map((row) => h("tr", {}, ...row.map((cell, i) => h("td", { class: kind(i, cell) }, text(cell)))))),
+      ),
+    ),
+  ); // prettier-ignore
+}
+
+export function showExperiment(app: HTMLElement, document_: unknown): Experiment {
+  const experiment = decodeExperiment(document_);
+  document.title = `${experiment.title} · Vantage`;
+  const toggle = h("button", { type: "button", class: "icon", "aria-label": "light or dark", onclick: () => theme.toggle() }, "◐");
+  app.className = "experiment";
+  app.replaceChildren(
+    h("header", {}, h("span", { class: "mark", "aria-hidden": "true" }), h("div", { class: "titles" }, h("h1", {}, experiment.title), h("p", {}, "Vantage experiment")), toggle),
+    h("main", {},
+      ...experiment.text.map((t) => h("p", { class: "lead" }, t)),
+      h("div", { class: "figures" }, ...experiment.figures.map(figure)),
+      ...experiment.tables.map(table),
+    ),
+  ); // prettier-ignore
+  return experiment;
+}
