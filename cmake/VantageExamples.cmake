@@ -1,0 +1,14 @@
+# The numbered programs under examples/, each built against what it says it links and run as a test.
+
+# vantage_example(NAME LIBRARY PATTERN): PATTERN is what the program has to print.
+function(vantage_example name library pattern)
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/examples/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${library} vantage_build_settings)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/examples)
+  add_test(NAME Example.${name} COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DPATTERN=${pattern}
+                                        -P ${PROJECT_SOURCE_DIR}/tests/expect_output.cmake)
+  set_tests_properties(Example.${name} PROPERTIES LABELS default TIMEOUT 120)
+endfunction()
+
+vantage_example(01_plan_a_view vantage::core "scan 3: .*next view [0-9]+: best of 80")
+vantage_example(02_keep_the_robot_safe vantage::core "are feasible.*workspace")
