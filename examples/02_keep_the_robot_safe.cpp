@@ -16,12 +16,12 @@ int main() {
 
   PlannerOptions options;
   options.reach.body_radius = 0.08;
-  options.reach.workspace =
-      Box3(Vec3(-0.8, -0.4, -1), Vec3(0.8, 1, 1));  // the arm does not reach farther than y = -0.4
-  options.reach.obstacles = {Box3(Vec3(-1, -1, -0.25), Vec3(1, 1, -0.21))};  // the table top
+  // The arm reaches no farther than y = -0.4; the table is solid down to the floor.
+  options.reach.workspace = Box3(Vec3(-0.8, -0.4, -1), Vec3(0.8, 1, 1));
+  options.reach.obstacles = {Box3(Vec3(-1, -1, -1), Vec3(1, 1, -0.21))};
   Planner planner(candidates, camera, options);
 
-  // Nothing has been scanned, so every view is as unknown as the next; what matters here is which ones are left.
+  // In place of a first scan: something hides a corner of the enclosure.
   map.set_label(map.enclosure().min, Label::occluded);
   map.update_occplane();
   const auto plan = planner.next_best_view(map, candidates.views.front());
@@ -36,5 +36,6 @@ int main() {
     std::printf("  view %2d at (%5.2f, %5.2f, %5.2f): %s\n", evaluation.candidate, p.x(), p.y(), p.z(),
                 evaluation.reason.c_str());
   }
-  return plan->best.view.position().z() > -0.21 + options.reach.body_radius ? 0 : 1;
+  const bool is_above_table = plan->best.view.position().z() > -0.21 + options.reach.body_radius;
+  return is_above_table ? 0 : 1;
 }
