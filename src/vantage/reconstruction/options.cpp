@@ -145,7 +145,9 @@ QualityReference ReconstructOptions::quality_reference() const {
 }
 
 SimulatedRobotOptions ReconstructOptions::robot_options() const {
-  return {PositioningError::from_deviations(positioning_error), registration == "icp"};
+  return {.error = PositioningError::from_deviations(positioning_error),
+          .first_pose_exact = registration == "icp",
+          .depth_noise = {.a = depth_noise.x(), .b = depth_noise.y()}};
 }
 
 Candidates ReconstructOptions::candidate_views() const { return candidates_from_text(candidates, center); }

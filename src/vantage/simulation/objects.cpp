@@ -45,7 +45,11 @@ double default_size(const std::string& name) { return find(name).size; }
 
 TriangleMesh make_object(const std::string& name) {
   const BuiltIn& object = find(name);
-  return centred_and_scaled(object.shape(), object.size);
+  TriangleMesh mesh = object.shape();
+  // Sines and powers have other last bits on other machines; rounding takes them off.
+  constexpr double steps = 0x1p30;
+  for (Vec3& vertex : mesh.vertices) vertex = (vertex * steps).array().round() / steps;
+  return centred_and_scaled(std::move(mesh), object.size);
 }
 
 }  // namespace vantage
