@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace vantage::app {
+
+// Each adds one subcommand to the program; see the file of that name.
+void add_reconstruct(CLI::App& program);
+void add_evaluate(CLI::App& program);
+void add_objects(CLI::App& program);
+
+}  // namespace vantage::app
