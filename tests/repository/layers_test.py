@@ -33,7 +33,7 @@ class Layers(unittest.TestCase):
     def test_an_arrow_between_neighbours_is_caught(self):
         self.assertEqual(1, len(self.messages({"visibility/a.cpp": '#include "vantage/robot/robot.hpp"\n'})))
         self.assertEqual(1, len(self.messages({"registration/a.cpp": '#include "vantage/map/grid.hpp"\n'})))
-        self.assertEqual(1, len(self.messages({"io/a.cpp": '  #include <vantage/simulation/scene.hpp>\n'})))
+        self.assertEqual(1, len(self.messages({"simulation/a.cpp": '  #include <vantage/utility/factors.hpp>\n'})))
 
     def test_tests_may_use_all_lower_layers_but_no_higher_ones(self):
         self.assertEqual([], self.messages({"robot/a_test.cpp": '#include "vantage/candidates/candidates.hpp"\n'}))
