@@ -49,9 +49,16 @@ export class Session {
     return this.history.at(step);
   }
 
-  /** The evaluation made after scan `step`, which chose the next one. */
-  planAfter(step: number): Plan | null {
-    return step + 1 < this.run.scans.length ? this.run.scans[step + 1].plan : this.run.next;
+  /**
+   * The evaluation to show at scan `step`: the one made after it, which chose the next view (`made` = "after"). After
+   * the last scan of a run there is none any more; then the one that chose the last scan stays ("before").
+   */
+  planAt(step: number): { plan: Plan; made: "after" | "before" } | null {
+    const { scans, next } = this.run;
+    const after = step + 1 < scans.length ? scans[step + 1].plan : next;
+    if (after) return { plan: after, made: "after" };
+    const before = step === scans.length - 1 ? (scans[step]?.plan ?? null) : null;
+    return before && { plan: before, made: "before" };
   }
 
   quantityOf(plan: Plan, quantity: Quantity): ArrayLike<number> {

@@ -8,9 +8,10 @@ const VERTICES = 18; // four sides and two halves of the image
 
 /** All candidates in one geometry: pyramids with the tip at the sensor. */
 export class CameraLayer {
-  readonly mesh: THREE.Mesh;
+  readonly group = new THREE.Group();
   readonly positions: THREE.Vector3[] = [];
   private readonly colors: THREE.BufferAttribute;
+  private readonly outline: THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>;
 
   constructor(
     readonly candidates: Candidates,
@@ -33,9 +34,29 @@ export class CameraLayer {
     this.colors = new THREE.BufferAttribute(new Uint8Array(4 * VERTICES * candidates.count), 4, true);
     geometry.setAttribute("color", this.colors);
     const material = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true });
-    this.mesh = new THREE.Mesh(geometry, material);
-    this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = 3;
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.renderOrder = 3;
+    this.outline = new THREE.LineSegments(
+      this.edges([0, 1, 2, 3].flatMap((k) => [tip, corners[k], corners[k], corners[(k + 1) % 4]])),
+      new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 }),
+    );
+    this.outline.renderOrder = 3;
+    this.group.add(mesh, this.outline);
+    for (const child of this.group.children) child.frustumCulled = false;
+  }
+
+  setOutline(color: string): void {
+    this.outline.material.color.set(color);
+  }
+
+  private edges(local: THREE.Vector3[]): THREE.BufferGeometry {
+    const lines = new Float32Array(3 * local.length * this.candidates.count);
+    const moved = new THREE.Vector3();
+    for (let i = 0, at = 0; i < this.candidates.count; ++i) {
+      const matrix = matrixOf(this.candidates.poses, 7 * i);
+      for (const p of local) moved.copy(p).applyMatrix4(matrix).toArray(lines, 3 * at++);
+    }
+    return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(lines, 3));
   }
 
   /** `color` and opacity (0 to 1) per candidate. */

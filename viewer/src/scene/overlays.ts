@@ -28,14 +28,14 @@ export function buildPath(
     const commanded = positionOf(scans[k].commanded);
     if (k > 0) {
       const points = arc(positionOf(scans[k - 1].commanded), commanded, middle, onSphere);
-      if (points[0].distanceTo(points[points.length - 1]) > 1e-6) group.add(tube(points, 0.16 * size, line));
+      if (points[0].distanceTo(points[points.length - 1]) > 1e-6) group.add(tube(points, 0.07 * size, line));
     }
     const registered = scans[k].registered;
-    const ball = new THREE.Mesh(new THREE.SphereGeometry(0.42 * size, 12, 8), registered ? found : failed);
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(0.3 * size, 14, 10), registered ? found : failed);
     ball.position.copy(registered ? positionOf(registered) : commanded);
     group.add(ball);
     if (registered && ball.position.distanceTo(commanded) > 1e-4) {
-      group.add(tube([commanded, ball.position], 0.1 * size, found));
+      group.add(tube([commanded, ball.position], 0.06 * size, found));
     }
   }
   return group;
@@ -57,7 +57,7 @@ export function buildFrustum(camera: Camera, pose: Pose, depth: number, color: s
   const glass = new THREE.MeshBasicMaterial({
     color,
     transparent: true,
-    opacity: 0.07,
+    opacity: 0.05,
     side: THREE.DoubleSide,
     depthWrite: false,
   });

@@ -67,12 +67,12 @@ export class SceneView {
     const { grid, candidates, camera } = this.run;
     this.voxels = new VoxelLayer(grid);
     this.cameras = new CameraLayer(candidates, camera, this.glyphSize());
-    this.root.add(this.voxels.group, this.cameras.mesh, this.marker, this.enclosureBox());
+    this.root.add(this.voxels.group, this.cameras.group, this.marker, this.enclosureBox());
     if (this.runId !== this.session.runId) {
       this.runId = this.session.runId;
       const target = new THREE.Vector3(...this.enclosureCenter());
       const reach = Math.max(...this.cameras.positions.map((p) => p.distanceTo(target)), this.enclosureRadius());
-      this.viewport.frame(target, Math.min(reach * 0.93, 6 * this.enclosureRadius()));
+      this.viewport.frame(target, Math.min(reach * 1.04, 6 * this.enclosureRadius()));
     }
   }
 
@@ -149,11 +149,12 @@ export class SceneView {
   }
 
   private paintCameras(state: State): void {
-    this.cameras.mesh.visible = state.layers.candidates;
-    const plan = this.session.planAfter(state.step);
+    this.cameras.group.visible = state.layers.candidates;
+    const plan = this.session.planAt(state.step)?.plan ?? null;
     const values = plan ? this.session.quantityOf(plan, state.quantity) : null;
     const highest = values ? this.session.highest(values, plan!) : 0;
     const selected = state.selection?.kind === "view" ? state.selection.index : -1;
+    this.cameras.setOutline(theme.color("line"));
     this.cameras.paint((i) => {
       if (i === selected) return { rgb: parseHex(theme.color("select")), alpha: 1 };
       if (plan?.chosen === i) return { rgb: parseHex(theme.color("chosen")), alpha: 1 };
@@ -180,7 +181,7 @@ export class SceneView {
     const { center } = run.candidates;
     this.replace("path", layers.path ? buildPath(run.scans, step, center, onSphere, this.glyphSize(), colors) : null);
     const pose = run.scans[step].registered ?? run.scans[step].believed;
-    const depth = Math.min(run.camera.max_depth, this.distanceToCenter(pose) + 0.4 * this.enclosureRadius());
+    const depth = Math.min(run.camera.max_depth, this.distanceToCenter(pose));
     this.replace("frustum", layers.frustum ? buildFrustum(run.camera, pose, depth, theme.color("chosen")) : null);
     this.replace("normals", layers.normals ? buildNormals(map, run.grid, this.cut(state)) : null);
     this.replace("slice", slice ? buildSlice(map, run.grid, slice.axis, slice.index) : null);

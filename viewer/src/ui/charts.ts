@@ -29,7 +29,7 @@ export interface ChartOptions {
   format?: (value: number) => string;
 }
 
-const M = { left: 40, right: 10, top: 8, bottom: 20 };
+const M = { left: 34, right: 8, top: 8, bottom: 18 };
 
 export interface Chart {
   element: HTMLElement;
@@ -52,7 +52,7 @@ function range(series: Series[], options: ChartOptions): [number, number] {
 
 /** Chart of several series; a click calls `onPick` with the index of the nearest x. */
 export function lineChart(series: Series[], options: ChartOptions, onPick: (index: number) => void = () => {}): Chart {
-  const { width = 300, height = 128, format = tickText } = options;
+  const { width = 212, height = 112, format = tickText } = options;
   const count = Math.max(1, ...series.map((s) => s.values.length));
   const xs = options.x ?? Array.from({ length: count }, (_, i) => i + 1);
   const [low, high] = range(series, options);
@@ -66,7 +66,7 @@ export function lineChart(series: Series[], options: ChartOptions, onPick: (inde
   }
   const every = xs.every(Number.isInteger);
   for (const x of ticks(first, last, Math.min(8, Math.max(1, count - 1))).filter((t) => !every || Number.isInteger(t))) {
-    parts.push(svg("text", { x: px(x), y: height - 6, class: "tick", "text-anchor": "middle" }, tickText(x)));
+    parts.push(svg("text", { x: px(x), y: height - 5, class: "tick", "text-anchor": "middle" }, tickText(x)));
   }
   const below = new Array<number>(count).fill(0);
   for (const s of series) parts.push(...drawSeries(s, options, xs, px, py, below));

@@ -48,7 +48,7 @@ function build(session: Session, onPick: (scan: number) => void): Chart[] {
     ];
     charts.push(lineChart(series, { title: "Coverage", unit: "%", min: 0, max: 1, format: percentText }, onPick));
   }
-  charts.push(lineChart([{ name: "quality", color: INK.a, values: values("mean_quality") }], { title: "Mean quality", min: 0, max: 1 }, onPick));
+  charts.push(lineChart([{ name: "quality", color: INK.a, values: values("mean_quality") }], { title: "Mean quality", min: 0, max: 1, format: (v) => String(Number(v.toFixed(3))) }, onPick));
   charts.push(lineChart([{ name: "distance", color: INK.a, values: values("distance") }], { title: "Distance travelled", unit: "m", min: 0, format: (v) => String(Number(v.toFixed(2))) }, onPick));
   const counts = labelCounts(run);
   const dashes = ["2 2", undefined, "7 2", "7 2 2 2", "4 2"];

@@ -40,7 +40,8 @@ function planRows(plan: Plan, index: number): Row[] {
 export function viewDetails(session: Session, index: number): HTMLElement {
   const { run, store } = session;
   const { step } = store.state;
-  const plan = session.planAfter(step);
+  const planned = session.planAt(step);
+  const plan = planned?.plan;
   const poses = run.candidates.poses;
   const position = [0, 1, 2].map((a) => fixed(poses[7 * index + a], 3)).join(", ");
   const taken = run.scans.filter((s) => s.candidate === index);
@@ -49,9 +50,10 @@ export function viewDetails(session: Session, index: number): HTMLElement {
     parts.push(h("p", { class: "bad" }, `Infeasible: ${plan.reasons[plan.infeasible[index] - 1]}`));
   } else if (plan) {
     const place = session.ranking(plan).indexOf(index);
-    if (plan.chosen === index) parts.push(h("p", { class: "good" }, "The next view."));
-    else if (place >= 0) parts.push(h("p", {}, `Rank ${place + 1} of ${session.ranking(plan).length} after scan ${step + 1}.`));
-    else parts.push(h("p", {}, "Not evaluated to the end after this scan."));
+    const when = `${planned!.made} scan ${step + 1}`;
+    if (plan.chosen === index) parts.push(h("p", { class: "good" }, `Chosen ${when}.`));
+    else if (place >= 0) parts.push(h("p", {}, `Rank ${place + 1} of ${session.ranking(plan).length} ${when}.`));
+    else parts.push(h("p", {}, `Not evaluated to the end ${when}.`));
   } else parts.push(h("p", {}, "No view was planned after this scan."));
   const rows: Row[] = plan ? planRows(plan, index) : [];
   rows.push(["position", `${position} m`]);

@@ -125,7 +125,7 @@ export function utilityMap(session: Session): HTMLElement {
   const { store } = session;
   const pick = (index: number) => store.set({ selection: { kind: "view", index } });
   const key = (event: KeyboardEvent) => {
-    const plan = session.planAfter(store.state.step);
+    const plan = session.planAt(store.state.step)?.plan;
     const move = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!plan || !move) return;
     event.preventDefault();
@@ -163,7 +163,8 @@ export function utilityMap(session: Session): HTMLElement {
   const update = () => {
     const { state } = store;
     const { candidates, scans } = session.run;
-    const plan = session.planAfter(state.step);
+    const planned = session.planAt(state.step);
+    const plan = planned?.plan;
     choice.value = state.quantity;
     layerRow.hidden = !candidates.grid;
     maps.hidden = !plan;
@@ -192,8 +193,8 @@ export function utilityMap(session: Session): HTMLElement {
     }
     const out = plan.infeasible.reduce((n, r) => n + (r ? 1 : 0), 0);
     const feasible = `${candidates.count - out} of ${candidates.count} candidates feasible`;
-    note.textContent =
-      plan.chosen === null ? `After scan ${state.step + 1}: no view chosen. ${feasible}.` : `After scan ${state.step + 1}: view ${plan.chosen} is next. ${feasible}; striped: infeasible.`;
+    const choiceText = plan.chosen === null ? "no view chosen" : `view ${plan.chosen} ${planned!.made === "after" ? "is next" : "was the last"}`;
+    note.textContent = `${planned!.made === "after" ? "After" : "Before"} scan ${state.step + 1}: ${choiceText}. ${feasible}${out ? "; striped: infeasible" : ""}.`;
   };
   store.subscribe(update);
   theme.subscribe(update);
