@@ -1,0 +1,244 @@
+#include "vantage/io/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.hpp"
+#include "vantage/io/packed_array.hpp"
+#include "vantage/io/report_geometry.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_cloud_points = 150000;
+constexpr std::size_t max_triangles = 60000;
+constexpr std::string_view data_place = R"(<script type="application/json" id="vantage-data"></script>)";
+constexpr std::string_view static_place = "<!--vantage-static-->";
+
+Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+std::array<double, 7> pose_numbers(const View& view) {
+  const Vec3 p = view.position();
+  const Eigen::Quaterniond q(view.world_from_sensor.linear());
+  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+Json pose_json(const View& view) { return pose_numbers(view); }
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// One number of every evaluated candidate; NaN for the others.
+template <class Get>
+Json floats_json(const std::vector<Evaluation>& evaluations, Get get) {
+  std::vector<float> values;
+  values.reserve(evaluations.size());
+  for (const Evaluation& e : evaluations) {
+    values.push_back(e.evaluated() ? static_cast<float>(get(e)) : std::numeric_limits<float>::quiet_NaN());
+  }
+  return packed_array<float>(values);
+}
+
+template <class Get>
+Json counts_json(const std::vector<Evaluation>& evaluations, Get get) {
+  std::vector<std::uint32_t> values;
+  values.reserve(evaluations.size());
+  for (const Evaluation& e : evaluations) values.push_back(static_cast<std::uint32_t>(get(e)));
+  return packed_array<std::uint32_t>(values);
+}
+
+std::string_view state_name(RunData::State state) {
+  switch (state) {
+    case RunData::State::running:
+      return "running";
+    case RunData::State::waiting:
+      return "waiting";
+    case RunData::State::finished:
+      break;
+  }
+  return "finished";
+}
+
+Json meta_json(const RunData& run) {
+  Json options = Json::object();
+  for (const auto& [name, value] : run.options) options[name] = value;
+  return {{"command", run.command},        {"object", run.object},      {"program", run.program},
+          {"options", std::move(options)}, {"seed", or_null(run.seed)}, {"state", state_name(run.state)},
+          {"simulated", run.simulated}};
+}
+
+Json grid_json(const RunData& run) {
+  const auto& [min, max] = run.enclosure;
+  return {{"origin", point_json(run.grid.min)},
+          {"voxel", run.grid.length},
+          {"size", {run.grid.size.x(), run.grid.size.y(), run.grid.size.z()}},
+          {"enclosure", {min.x(), min.y(), min.z(), max.x(), max.y(), max.z()}}};
+}
+
+Json camera_json(const RangeCamera& camera) {
+  return {{"columns", camera.resolution.columns},
+          {"rows", camera.resolution.rows},
+          {"left", camera.left},
+          {"right", camera.right},
+          {"top", camera.top},
+          {"bottom", camera.bottom},
+          {"min_depth", camera.min_depth},
+          {"max_depth", camera.max_depth}};
+}
+
+Json candidates_json(const RunData& run) {
+  std::vector<float> poses;
+  for (const View& view : run.candidates.views) {
+    for (const double number : pose_numbers(view)) poses.push_back(static_cast<float>(number));
+  }
+  Json json{{"kind", run.candidates.kind == Candidates::Kind::sphere ? "sphere" : "list"},
+            {"text", run.candidates_text},
+            {"center", point_json(run.candidates.center)},
+            {"poses", packed_array<float>(poses, 7)}};
+  if (run.candidates.grid) {
+    std::vector<std::uint16_t> cells;
+    for (const Index3& cell : run.candidates.grid->cell_of_view) {
+      for (int axis = 0; axis < 3; ++axis) cells.push_back(static_cast<std::uint16_t>(cell[axis]));
+    }
+    json["kind"] = "grid";
+    json["cells_per_side"] = run.candidates.grid->cells_per_side;
+    json["spacing"] = point_json(run.candidates.grid->spacing);
+    json["cells"] = packed_array<std::uint16_t>(cells, 3);
+  }
+  return json;
+}
+
+Json summary_json(const RunData& run) {
+  if (run.scans.empty()) return nullptr;
+  const ScanRecord& last = run.scans.back().record;
+  return {{"views", run.scans.size()},          {"occupied", last.labels.occupied},
+          {"mean_quality", last.mean_quality},  {"distance", last.distance},
+          {"coverage", or_null(last.coverage)}, {"coverage_all", or_null(last.coverage_all)}};
+}
+
+}  // namespace
+
+Json plan_json(const CandidatePlan& plan) {
+  const auto& all = plan.evaluations;
+  std::vector<std::string> reasons;
+  std::vector<std::uint8_t> infeasible;
+  for (const Evaluation& e : all) {
+    if (e.feasible) {
+      infeasible.push_back(0);
+      continue;
+    }
+    auto place = std::find(reasons.begin(), reasons.end(), e.reason) - reasons.begin();
+    if (place == static_cast<std::ptrdiff_t>(reasons.size())) {
+      if (reasons.size() < 254)
+        reasons.push_back(e.reason);
+      else
+        place = 253;  // one byte per candidate: so many different reasons are not read by anybody
+    }
+    infeasible.push_back(static_cast<std::uint8_t>(1 + place));
+  }
+  const auto score = [](const Evaluation& e) { return e.score; };
+  return {{"chosen", or_null(plan.chosen)},
+          {"utility", floats_json(all, [](const Evaluation& e) { return e.utility; })},
+          {"convolved", plan.convolved ? floats_json(all, score) : Json(nullptr)},
+          {"n_oc", counts_json(all, [](const Evaluation& e) { return e.seen.occupied; })},
+          {"n_op", counts_json(all, [](const Evaluation& e) { return e.seen.occplane; })},
+          {"n_um", counts_json(all, [](const Evaluation& e) { return e.seen.unmarked; })},
+          {"f_area", floats_json(all, [](const Evaluation& e) { return e.factors.f_area; })},
+          {"f_navigation", floats_json(all, [](const Evaluation& e) { return e.factors.f_navigation; })},
+          {"f_quality", floats_json(all, [](const Evaluation& e) { return e.factors.f_quality; })},
+          {"f_occlusion", floats_json(all, [](const Evaluation& e) { return e.factors.f_occlusion; })},
+          {"infeasible", packed_array<std::uint8_t>(infeasible)},
+          {"reasons", reasons}};
+}
+
+Json scan_json(const RecordedScan& scan) {
+  const ScanRecord& r = scan.record;
+  Json json{{"scan", r.scan},
+            {"candidate", r.candidate >= 0 ? Json(r.candidate) : Json(nullptr)},
+            {"commanded", pose_json(r.commanded)},
+            {"believed", pose_json(r.believed)},
+            {"registered", r.merged ? pose_json(r.registered) : Json(nullptr)}};
+  if (r.true_view) json["true_pose"] = pose_json(*r.true_view);
+  if (r.planned) {
+    const Evaluation& e = *r.planned;
+    json.update({{"n_oc", e.seen.occupied},
+                 {"n_op", e.seen.occplane},
+                 {"n_um", e.seen.unmarked},
+                 {"f_area", e.factors.f_area},
+                 {"f_navigation", e.factors.f_navigation},
+                 {"f_quality", e.factors.f_quality},
+                 {"f_occlusion", e.factors.f_occlusion},
+                 {"utility", e.utility}});
+  }
+  json.update({{"occupied", r.labels.occupied},
+               {"occplane", r.labels.occplane},
+               {"unmarked", r.labels.unmarked},
+               {"new_occupied", r.new_occupied},
+               {"mean_quality", r.mean_quality},
+               {"distance", r.distance},
+               {"coverage", or_null(r.coverage)},
+               {"coverage_all", or_null(r.coverage_all)},
+               {"overlap", r.overlap},
+               {"residual", r.residual},
+               {"verdict", r.verdict},
+               {"reason", r.reason},
+               {"plan", scan.plan ? plan_json(*scan.plan) : Json(nullptr)},
+               {"labels", packed_array<std::uint8_t>(scan.change.labels)}});
+  json["surface"] = {{"voxels", packed_array<std::uint32_t>(scan.change.voxels, 1, PackedRows::differences)},
+                     {"normals", packed_array<std::int8_t>(scan.change.normals, 3)},
+                     {"quality", packed_array<std::uint8_t>(scan.change.quality)}};
+  json["milliseconds"] = {{"plan", 1e3 * r.timings.plan},
+                          {"scan", 1e3 * r.timings.scan},
+                          {"register", 1e3 * r.timings.registration},
+                          {"integrate", 1e3 * r.timings.integration}};
+  return json;
+}
+
+Json run_json(const RunData& run) {
+  Json scans = Json::array();
+  for (const RecordedScan& scan : run.scans) scans.push_back(scan_json(scan));
+  return {{"format", "vantage-run"},
+          {"version", 1},
+          {"meta", meta_json(run)},
+          {"grid", grid_json(run)},
+          {"camera", camera_json(run.camera)},
+          {"candidates", candidates_json(run)},
+          {"scans", std::move(scans)},
+          {"next", run.next ? plan_json(*run.next) : Json(nullptr)},
+          {"stop_reason", run.stop_reason},
+          {"summary", summary_json(run)},
+          {"cloud", cloud_json(run.cloud, run.scan_of_point, max_cloud_points)},
+          {"mesh", mesh_json(run.mesh, max_triangles)},
+          {"truth", mesh_json(run.truth, max_triangles)}};
+}
+
+std::string fill_page(std::string_view page, const Json& document, std::string_view static_html) {
+  std::string result(page);
+  const auto fill = [&result](std::string_view place, std::string_view text) {
+    const std::size_t at = result.find(place);
+    if (at == std::string::npos || result.find(place, at + 1) != std::string::npos) {
+      throw Error(concat("the viewer's page must have ", place, " exactly once"));
+    }
+    result.replace(at, place.size(), text);
+  };
+  // File names and messages may hold any bytes; in a script element no `<` may stand.
+  std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char c : json) c == '<' ? escaped += "\\u003c" : escaped += c;
+  constexpr std::string_view end_tag = "</script>";
+  fill(static_place, static_html);
+  fill(data_place, concat(data_place.substr(0, data_place.size() - end_tag.size()), escaped, end_tag));
+  return result;
+}
+
+std::string report_html(const RunData& run) { return fill_page(viewer_page(), run_json(run), run.static_html); }
+
+}  // namespace vantage

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "vantage/io/run_data.hpp"
+
+namespace vantage {
+
+/// Parts of RunData as docs/report-data.md defines them; the live server sends them as events.
+[[nodiscard]] nlohmann::ordered_json scan_json(const RecordedScan& scan);
+[[nodiscard]] nlohmann::ordered_json plan_json(const CandidatePlan& plan);
+/// The whole document.
+[[nodiscard]] nlohmann::ordered_json run_json(const RunData& run);
+
+/// The page of viewer/ with empty data, as it is embedded in the program.
+[[nodiscard]] std::string_view viewer_page();
+
+/// `page` with a document and the pictures for readers without JavaScript written into their places. Throws Error where
+/// the page does not have exactly one of each place.
+[[nodiscard]] std::string fill_page(std::string_view page, const nlohmann::ordered_json& document,
+                                    std::string_view static_html);
+
+/// report.html of a run: one file that opens from disk and asks for nothing else.
+[[nodiscard]] std::string report_html(const RunData& run);
+
+}  // namespace vantage
