@@ -19,10 +19,10 @@ Color mix(const Color& a, const Color& b, double share) {
 
 Color sequential_color(double share) {
   if (std::isnan(share)) return palette::no_value;
-  // Every eighth of the cividis scale.
-  constexpr std::array<Color, 9> stops{color(0x00224E), color(0x123570), color(0x3B496C),
-                                       color(0x575D6D), color(0x707173), color(0x8A8678),
-                                       color(0xA59C74), color(0xC3B369), color(0xFEE838)};
+  // Every ninth of the viridis scale.
+  constexpr std::array<Color, 10> stops{color(0x440154), color(0x482878), color(0x3E4989), color(0x31688E),
+                                        color(0x26828E), color(0x1F9E89), color(0x35B779), color(0x6ECE58),
+                                        color(0xB5DE2B), color(0xFDE725)};
   const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
   const std::size_t below = std::min(static_cast<std::size_t>(place), stops.size() - 2);
   return mix(stops[below], stops[below + 1], place - static_cast<double>(below));

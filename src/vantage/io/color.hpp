@@ -25,7 +25,7 @@ struct Color {
 [[nodiscard]] Color mix(const Color& a, const Color& b, double share);
 
 /// A scale from low to high that grows evenly in lightness, so that it reads without colour vision and in grey print
-/// (cividis, Nunez et al. 2018). Arguments outside [0, 1] are clamped; NaN gives the grey of "no value".
+/// (viridis, van der Walt and Smith 2015). Arguments outside [0, 1] are clamped; NaN gives the grey of "no value".
 [[nodiscard]] Color sequential_color(double share);
 
 namespace palette {
@@ -33,7 +33,7 @@ namespace palette {
 inline constexpr Color black = color(0x000000), orange = color(0xE69F00), sky = color(0x56B4E9),
                        green = color(0x009E73), yellow = color(0xF0E442), blue = color(0x0072B2),
                        vermillion = color(0xD55E00), purple = color(0xCC79A7);
-inline constexpr Color no_value = color(0xBBBBBB);
+inline constexpr Color no_value = color(0xCDD1D6);
 inline constexpr Color clay = color(0xE0D3C1);  // what models look like where nothing else is to be shown
 }  // namespace palette
 

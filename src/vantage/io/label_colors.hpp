@@ -8,18 +8,18 @@ namespace vantage {
 /// The one colour of a label in every picture and plot. Told apart by lightness as well as by hue.
 [[nodiscard]] constexpr Color label_color(Label label) {
   switch (label) {
+    case Label::unmarked:
+      return color(0x9AA0A6);
     case Label::occupied:
-      return palette::blue;
-    case Label::occplane:
       return palette::orange;
+    case Label::empty:
+      return color(0xE3F1FA);  // a tint of sky: most of every slice is empty
     case Label::occluded:
       return palette::purple;
-    case Label::unmarked:
-      return color(0x8C8C8C);
-    case Label::empty:
+    case Label::occplane:
       break;
   }
-  return color(0xF4F6F8);
+  return palette::blue;
 }
 
 }  // namespace vantage

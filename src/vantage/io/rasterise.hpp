@@ -51,6 +51,7 @@ void fill(const Triangle& triangle, const Window& window, const Put& put) {
   const auto side = [](const Corner& a, const Corner& b, double x, double y) {
     return (static_cast<double>(b.x) - a.x) * (y - a.y) - (static_cast<double>(b.y) - a.y) * (x - a.x);
   };
+  if (left >= right || top >= bottom) return;
   const double area = side(triangle[0], triangle[1], triangle[2].x, triangle[2].y);
   if (area == 0) return;
   const double step0 = -(static_cast<double>(triangle[2].y) - triangle[1].y) / area;

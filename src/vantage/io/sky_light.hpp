@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "vantage/io/picture_scene.hpp"
+#include "vantage/io/rasterise.hpp"
 
 namespace vantage {
 
@@ -11,8 +12,8 @@ namespace vantage {
 class SkyLight {
  public:
   struct Options {
-    int directions = 64;   // evenly over the sphere
-    int resolution = 224;  // texels per side of a shadow map
+    int directions = 48;   // evenly over the sphere
+    int resolution = 208;  // texels per side of a shadow map
 
     void validate() const;
   };
@@ -38,17 +39,25 @@ class SkyLight {
   [[nodiscard]] float radius() const { return radius_; }
 
  private:
-  struct ShadowMap {
-    Vec3f towards_light, u, v;
-    std::vector<float> height;  // along towards_light, of the solid nearest to the light
+  static constexpr int most_directions = 256;
+  /// One number per direction, on the stack.
+  using PerDirection = Eigen::Array<float, Eigen::Dynamic, 1, 0, most_directions, 1>;
+  /// The product of each direction's row with a vector.
+  struct Rows {
+    PerDirection x, y, z;
+
+    [[nodiscard]] Vec3f row(Eigen::Index k) const { return {x[k], y[k], z[k]}; }
+    [[nodiscard]] PerDirection times(const Vec3f& v) const { return x * v.x() + y * v.y() + z * v.z(); }
   };
-  [[nodiscard]] float free_share(const ShadowMap& map, const Vec3f& point) const;
+  [[nodiscard]] raster::Corner on_map(Eigen::Index direction, const Vec3f& offset) const;
+  [[nodiscard]] float free_share(Eigen::Index direction, const raster::Corner& place) const;
 
   Vec3f center_ = Vec3f::Zero();
   float radius_ = 0;
-  float texels_per_metre_ = 0;
   int resolution_ = 0;
-  std::vector<ShadowMap> maps_;
+  Rows towards_light_;         // unit vectors
+  Rows column_, row_;          // across the light, in texels per metre
+  std::vector<float> height_;  // per direction and texel: along the light, of the solid nearest to it
 };
 
 }  // namespace vantage

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr int band_rows = 16;  // pixel rows that one task draws
+constexpr int band_rows = 32;  // pixel rows that one task draws
 
 Vec3f linear_light(const Color& color) {
   const auto channel = [](double value) {
@@ -43,11 +43,12 @@ class SrgbTable {
 /// Shade that the solids cast on the plane at a height along `up`: 1 where all light arrives.
 class Floor {
  public:
-  Floor(const SkyLight& sky, const SkyLight::Lamps& lamps, const Vec3& up, double height)
+  Floor(const SkyLight& sky, const SkyLight::Lamps& lamps, const Vec3& eye, const Vec3& up, double height)
       : up_(up.normalized().cast<float>()), height_(static_cast<float>(height)), radius_(sky.radius()) {
     u_ = up_.unitOrthogonal();
     v_ = up_.cross(u_);
     middle_ = sky.center() + (height_ - sky.center().dot(up_)) * up_;
+    if (eye.dot(up.normalized()) <= height) return;  // never seen
     const Vec3f full = sky.unobstructed(up_, lamps);
     share_.resize(side * side);
     parallel_for(side, [&](std::size_t row) {
@@ -62,7 +63,7 @@ class Floor {
   /// The shade where a ray from `eye` meets the floor.
   [[nodiscard]] Vec3f at(const Vec3f& eye, const Vec3f& ray) const {
     const float depth = (height_ - eye.dot(up_)) / ray.dot(up_);
-    if (radius_ == 0 || eye.dot(up_) <= height_ || !(depth > 0)) return Vec3f::Ones();
+    if (radius_ == 0 || share_.empty() || !(depth > 0)) return Vec3f::Ones();
     const Vec3f offset = (eye + depth * ray - middle_) / extent();
     const float away = offset.norm();
     if (away >= 1) return Vec3f::Ones();
@@ -77,11 +78,11 @@ class Floor {
   }
 
  private:
-  static constexpr std::size_t side = 160;
+  static constexpr std::size_t side = 96;
 
-  /// The mean of nine texels along rows (step 1) or columns (step `side`); beyond the border all light arrives.
+  /// The mean of five texels along rows (step 1) or columns (step `side`); beyond the border all light arrives.
   void blur(std::size_t step) {
-    constexpr std::size_t reach = 4;
+    constexpr std::size_t reach = 2;
     const std::size_t across = step == 1 ? side : 1;
     std::vector<Vec3f> line(side + 2 * reach);
     for (std::size_t k = 0; k < side; ++k) {
@@ -277,7 +278,7 @@ Picture render(const PictureScene& scene, const SkyLight& sky, const PictureCame
   const Vec3f background = linear_light(options.background);
   const Shader shader(scene, sky, screen, camera.up, background);
   std::optional<Floor> floor;
-  if (options.floor) floor.emplace(sky, shader.lamps(), camera.up, *options.floor);
+  if (options.floor) floor.emplace(sky, shader.lamps(), camera.eye, camera.up, *options.floor);
   const SrgbTable srgb;
 
   Picture picture{options.width, options.height, {}};

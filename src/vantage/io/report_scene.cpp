@@ -1,0 +1,58 @@
+#include "vantage/io/static_report.hpp"
+
+namespace vantage {
+namespace {
+
+/// The pose that the map was given, or else where the robot believed to be.
+const View& place_of(const ScanRecord& scan) { return scan.merged ? scan.registered : scan.believed; }
+
+/// The mean distance of the scans from what they look at; cameras are drawn in proportion.
+double mean_distance(const ReportData& data, const Vec3& center) {
+  double sum = 0;
+  for (const ScanRecord& scan : data.scans) sum += (place_of(scan).position() - center).norm();
+  return data.scans.empty() ? 1 : sum / static_cast<double>(data.scans.size());
+}
+
+}  // namespace
+
+PictureScene model_scene(const ReportData& data) {
+  PictureScene scene;
+  if (data.mesh != nullptr && !data.mesh->triangles.empty()) {
+    add_mesh(scene, *data.mesh, palette::clay);
+  } else if (data.cloud != nullptr && data.cloud->size() > 0) {
+    const double voxel = data.map != nullptr ? data.map->grid().length : 0.02;
+    add_cloud(scene, *data.cloud, 0.32 * voxel, palette::clay);
+  } else if (data.map != nullptr) {
+    const VoxelMap& map = *data.map;
+    add_voxels(scene, map, [&map](const Index3& voxel) {
+      return map.label(voxel) == Label::occupied ? std::optional(palette::clay) : std::nullopt;
+    });
+  }
+  return scene;
+}
+
+PictureScene views_scene(const ReportData& data) {
+  PictureScene scene = model_scene(data);
+  const Vec3 center = data.map != nullptr ? data.map->enclosure_center() : data.candidates.center;
+  const double distance = mean_distance(data, center);
+  for (const View& view : data.candidates.views)
+    scene.dots.push_back({view.position().cast<float>(), 1.7F, color(0xAEB5BF)});
+  const bool sphere = data.candidates.kind == Candidates::Kind::sphere;
+  const Vec3* before = nullptr;
+  std::vector<Vec3> places;
+  places.reserve(data.scans.size());
+  for (const ScanRecord& scan : data.scans) {
+    const View& view = place_of(scan);
+    const Color paint = scan.merged ? palette::blue : palette::no_value;
+    places.push_back(view.position());
+    add_camera(scene, view, data.camera, 0.1 * distance, paint);
+    const std::vector<Vec3> straight{before != nullptr ? *before : places.back(), places.back()};
+    if (before != nullptr)
+      add_path(scene, sphere ? arc(*before, places.back(), center) : straight, 2.2, palette::vermillion);
+    before = &places.back();
+    scene.badges.push_back({center + 1.09 * (places.back() - center), scan.scan, paint});
+  }
+  return scene;
+}
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "vantage/io/report_data.hpp"
+#include "vantage/io/software_renderer.hpp"
+
+namespace vantage {
+
+/// The sections of a report as one <article class="report">, with their style: pictures of the model, the views around
+/// it, curves over the scans, the chosen views with factors and reasons, slices through the labels, times. Needs no
+/// script and no other file. A run without scans, or without a map, gives the sections that remain.
+[[nodiscard]] std::string static_report_body(const ReportData& data);
+
+/// The same as a whole page.
+[[nodiscard]] std::string static_report_html(const ReportData& data);
+
+/// What the run came to in one sentence: views, coverage, distance and why it stopped.
+[[nodiscard]] std::string report_summary(const ReportData& data);
+
+/// The model as a solid: the mesh, or else the cloud, or else the occupied voxels. Empty where there is none of them.
+[[nodiscard]] PictureScene model_scene(const ReportData& data);
+
+/// The model among the views of the run: candidates as dots, the views taken as numbered cameras, the way between them.
+[[nodiscard]] PictureScene views_scene(const ReportData& data);
+
+}  // namespace vantage
