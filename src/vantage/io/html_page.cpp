@@ -95,8 +95,8 @@ std::string report_style() { return plot_style() + std::string(page_style); }
 
 std::string html_page(std::string_view title, std::string_view body) {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n"
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n"
       "<style>:root{{color-scheme:light dark}}body{{margin:0}}"
       "@media screen and (prefers-color-scheme:dark){{body{{background:#15181c}}}}</style>\n"
       "</head>\n<body>\n{}</body>\n</html>\n",

@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include "vantage/core/error.hpp"
+#include "vantage/io/packed_array.hpp"
 
 namespace vantage {
 
@@ -28,20 +29,9 @@ std::string png_bytes(const Picture& picture) {
   return bytes;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t given = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8U | (k < given ? static_cast<std::uint8_t>(bytes[i + k]) : std::uint8_t{0});
-    for (std::size_t k = 0; k < 4; ++k) text += k <= given ? digits[group >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
+std::string png_data_uri(const Picture& picture) {
+  const std::string bytes = png_bytes(picture);
+  return "data:image/png;base64," + base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
-
-std::string png_data_uri(const Picture& picture) { return "data:image/png;base64," + base64(png_bytes(picture)); }
 
 }  // namespace vantage

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace vantage {
@@ -24,9 +23,6 @@ struct Picture {
 
 /// The picture as the bytes of a PNG file; the same bytes for the same picture.
 [[nodiscard]] std::string png_bytes(const Picture& picture);
-
-/// RFC 4648, with padding.
-[[nodiscard]] std::string base64(std::string_view bytes);
 
 /// The picture as a `data:` address for the src of an <img>: a page that needs no other file.
 [[nodiscard]] std::string png_data_uri(const Picture& picture);

@@ -35,8 +35,12 @@ PictureScene views_scene(const ReportData& data) {
   PictureScene scene = model_scene(data);
   const Vec3 center = data.map != nullptr ? data.map->enclosure_center() : data.candidates.center;
   const double distance = mean_distance(data, center);
-  for (const View& view : data.candidates.views)
-    scene.dots.push_back({view.position().cast<float>(), 1.7F, color(0xAEB5BF)});
+  std::vector<bool> taken(data.candidates.views.size());
+  for (const ScanRecord& scan : data.scans)
+    if (scan.candidate >= 0 && static_cast<std::size_t>(scan.candidate) < taken.size())
+      taken[static_cast<std::size_t>(scan.candidate)] = true;
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (!taken[i]) scene.dots.push_back({data.candidates.views[i].position().cast<float>(), 1.7F, color(0xAEB5BF)});
   const bool sphere = data.candidates.kind == Candidates::Kind::sphere;
   const Vec3* before = nullptr;
   std::vector<Vec3> places;

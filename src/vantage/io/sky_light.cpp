@@ -92,7 +92,7 @@ SkyLight::Lamps SkyLight::lamps(const Pose& world_from_eye, const Vec3& up) cons
   std::vector<double> lamp_share, sky_share;
   for (Eigen::Index k = 0; k < towards_light_.x.size(); ++k) {
     const Vec3 direction = towards_light_.row(k).cast<double>();
-    lamp_share.push_back(std::pow(std::max(0.0, direction.dot(lamp)), 6));
+    lamp_share.push_back(std::pow(std::max(0.0, direction.dot(lamp)), 3));
     sky_share.push_back(0.65 + 0.35 * direction.dot(up.normalized()));
     lamp_sum += lamp_share.back() * std::max(0.0, direction.dot(lamp));
     sky_sum += sky_share.back() * std::max(0.0, direction.dot(lamp));

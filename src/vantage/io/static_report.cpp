@@ -26,7 +26,7 @@ class Captions {
 };
 
 std::string image(const Picture& picture, std::string_view description) {
-  return fmt::format("<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"{}\">\n", escape_markup(description),
+  return fmt::format("<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"{}\"/>\n", escape_markup(description),
                      picture.width, picture.height, png_data_uri(picture));
 }
 

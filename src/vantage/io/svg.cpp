@@ -53,6 +53,7 @@ std::string number(double value) {
 }
 
 std::string text(double x, double y, std::string_view content, Anchor anchor, std::string_view css_class) {
+  if (content.empty()) return "";
   constexpr std::string_view names[] = {"start", "middle", "end"};
   return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", number(x), number(y),
                      names[static_cast<std::size_t>(anchor)],
