@@ -38,3 +38,18 @@ function(vantage_library name)
   target_link_libraries(vantage_${name} PRIVATE $<BUILD_INTERFACE:vantage_build_settings>)
   set_property(GLOBAL APPEND PROPERTY VANTAGE_LIBRARIES vantage_${name})
 endfunction()
+
+# vantage_vector_code(TARGET FOLDER/STEM): STEM_avx2.cpp and STEM_avx512.cpp are compiled for these instructions, which
+# the program chooses at run time; on other processors they are left out.
+function(vantage_vector_code target stem)
+  set(source ${PROJECT_SOURCE_DIR}/src/vantage/${stem})
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+    set_source_files_properties(${source}_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma;-mbmi;-mbmi2")
+    # g++ 12 takes the deliberately undefined operands inside its own AVX-512 intrinsics for mistakes.
+    set_source_files_properties(${source}_avx512.cpp PROPERTIES COMPILE_OPTIONS
+      "-mavx512f;-mavx512dq;-mavx2;-mfma;-mbmi;-mbmi2;-Wno-uninitialized;-Wno-maybe-uninitialized")
+    target_compile_definitions(${target} PRIVATE VANTAGE_X86_64)
+  else()
+    set_source_files_properties(${source}_avx2.cpp ${source}_avx512.cpp PROPERTIES HEADER_FILE_ONLY ON)
+  endif()
+endfunction()

@@ -35,12 +35,12 @@ class Rows {
     if (region.side[2] != 0) facing |= empty(y, z - region.side[2], w);
     return facing;
   }
-  [[nodiscard]] PackedVoxel pack(int y, int z, int w, int bit) const {
+  [[nodiscard]] std::uint32_t pack(int y, int z, int w, int bit) const {
     const std::size_t at = word(y, z, w);
     const std::uint64_t is_hidden = map_.hidden().words[at] >> bit & 1U;
     const std::uint64_t is_marked = (map_.occupied().words[at] | map_.occplane().words[at]) >> bit & 1U;
-    return {static_cast<std::uint32_t>(64 * w + bit) | static_cast<std::uint32_t>(y) << 10U |
-            static_cast<std::uint32_t>(z) << 20U | static_cast<std::uint32_t>(is_hidden << 31U | is_marked << 30U)};
+    return static_cast<std::uint32_t>(64 * w + bit) | static_cast<std::uint32_t>(y) << 10U |
+           static_cast<std::uint32_t>(z) << 20U | static_cast<std::uint32_t>(is_hidden << 31U | is_marked << 30U);
   }
 
  private:
@@ -102,7 +102,7 @@ ExposedVoxels::ExposedVoxels(const VoxelMap& map) : map_(&map) {
     for (const int y : {-1, 1}) {
       for (const int x : {-1, 1}) {
         const Region region{all, {x, y, z}};
-        std::vector<PackedVoxel>& octant = octants_[octant_number(region.side)];
+        std::vector<std::uint32_t>& octant = octants_[octant_number(region.side)];
         if (has_octants_) collect(region, nullptr, octant);
         if (octant.size() > largest_octant) has_octants_ = false;
       }
@@ -111,11 +111,11 @@ ExposedVoxels::ExposedVoxels(const VoxelMap& map) : map_(&map) {
   if (!has_octants_) octants_ = {};
 }
 
-const std::vector<PackedVoxel>* ExposedVoxels::octant(const std::array<int, 3>& side) const {
+const std::vector<std::uint32_t>* ExposedVoxels::octant(const std::array<int, 3>& side) const {
   return has_octants_ ? &octants_[octant_number(side)] : nullptr;
 }
 
-void ExposedVoxels::collect(const Region& region, const FirstVoxels* first, std::vector<PackedVoxel>& voxels) const {
+void ExposedVoxels::collect(const Region& region, const FirstVoxels* first, std::vector<std::uint32_t>& voxels) const {
   const Rows rows(*map_);
   const BitLayout& layout = map_->layout();
   const Steps zs(region.box.min.z(), region.box.max.z(), region.side[2]);

@@ -53,16 +53,16 @@ class ExposedVoxels {
  public:
   explicit ExposedVoxels(const VoxelMap& map);
 
-  /// Appends the non-empty voxels of a region that have an empty neighbour on a side that faces the camera, in an order
-  /// in which no voxel hides an earlier one; all non-empty voxels where `first` says so.
-  void collect(const Region& region, const FirstVoxels* first, std::vector<PackedVoxel>& voxels) const;
+  /// Appends (packed) the non-empty voxels of a region that have an empty neighbour on a side that faces the camera, in
+  /// an order in which no voxel hides an earlier one; all non-empty voxels where `first` says so.
+  void collect(const Region& region, const FirstVoxels* first, std::vector<std::uint32_t>& voxels) const;
   /// All exposed voxels of an octant that takes in the whole enclosure, collected once; nullptr where they would take
   /// too much memory.
-  [[nodiscard]] const std::vector<PackedVoxel>* octant(const std::array<int, 3>& side) const;
+  [[nodiscard]] const std::vector<std::uint32_t>* octant(const std::array<int, 3>& side) const;
 
  private:
   const VoxelMap* map_;
-  std::array<std::vector<PackedVoxel>, 8> octants_;
+  std::array<std::vector<std::uint32_t>, 8> octants_;
   bool has_octants_ = false;
 };
 

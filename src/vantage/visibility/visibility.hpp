@@ -11,6 +11,7 @@
 #include "vantage/map/voxel_map.hpp"
 #include "vantage/sensor/range_camera.hpp"
 #include "vantage/sensor/sight_line.hpp"
+#include "vantage/visibility/instruction_set.hpp"
 
 namespace vantage {
 
@@ -47,6 +48,8 @@ void count_voxel(Visibility& seen, const VoxelMap& map, const Index3& voxel, con
 class VisibilityEvaluator {
  public:
   explicit VisibilityEvaluator(const VoxelMap& map);
+  /// With the given instructions, which must be among the available ones; the results are the same.
+  VisibilityEvaluator(const VoxelMap& map, InstructionSet instructions);
   ~VisibilityEvaluator();
   VisibilityEvaluator(VisibilityEvaluator&&) noexcept;
   VisibilityEvaluator& operator=(VisibilityEvaluator&&) noexcept;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iterator>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
+#include "vantage/visibility/batch_view.hpp"
 #include "vantage/visibility/exposed_voxels.hpp"
 #include "vantage/visibility/facing.hpp"
 #include "vantage/visibility/footprint.hpp"
@@ -19,7 +19,25 @@ namespace {
 /// Memory that one thread uses for one view after the other.
 struct Scratch {
   Coverage coverage;
-  std::vector<PackedVoxel> candidates, visible;
+  std::vector<std::uint32_t> candidates, visible;  // packed voxels
+};
+
+/// One view's way through the voxels.
+struct Pass {
+  PixelFrame frame;
+  Coverage& coverage;
+  BatchView batch;
+
+  Pass(const PixelFrame& pixel_frame, Coverage& pixels) : frame(pixel_frame), coverage(pixels) {
+    batch = batch_view(frame, coverage);
+    batch.context = this;
+    batch.splat_one = [](const void* pass, std::uint32_t voxel) {
+      const auto* self = static_cast<const Pass*>(pass);
+      return splat(self->frame, PackedVoxel{voxel}.index(), self->coverage);
+    };
+  }
+  Pass(const Pass&) = delete;
+  Pass& operator=(const Pass&) = delete;
 };
 
 /// Rays begin in voxels that touch the camera, or that meet the near plane; these may be visible without an empty
@@ -73,56 +91,68 @@ void require_fit(std::span<const View> views, std::span<const Resolution> resolu
 }  // namespace
 
 struct VisibilityEvaluator::Prepared {
-  explicit Prepared(const VoxelMap& voxel_map) : map(voxel_map), exposed(voxel_map), normals(voxel_map) {}
+  Prepared(const VoxelMap& voxel_map, InstructionSet instructions)
+      : map(voxel_map), splat_batch(splat_batch_for(instructions)), exposed(voxel_map), normals(voxel_map) {}
 
   const VoxelMap& map;
+  SplatBatch splat_batch;
   ExposedVoxels exposed;
   SurfaceNormals normals;
   mutable tbb::enumerable_thread_specific<Scratch> scratch;
 
   /// The voxels that end rays, fast; nullptr where only rays can tell.
-  [[nodiscard]] const std::vector<PackedVoxel>* splat_view(const RangeCamera& camera, const View& view,
-                                                           Resolution resolution) const;
-  void splat_region(const PixelFrame& frame, const Region& region, const FirstVoxels* first, Scratch& memory) const;
-  static void splat_all(const PixelFrame& frame, const std::vector<PackedVoxel>& candidates, Scratch& memory);
+  [[nodiscard]] const std::vector<std::uint32_t>* splat_view(const RangeCamera& camera, const View& view,
+                                                             Resolution resolution) const;
+  void splat_region(const Pass& pass, const Region& region, const FirstVoxels* first, Scratch& memory) const;
+  void splat_all(const Pass& pass, const Region& region, const std::vector<std::uint32_t>& candidates,
+                 Scratch& memory) const;
   /// Leaves out the occupied voxels beyond the incidence limit.
   [[nodiscard]] bool counts(const PackedVoxel& voxel, const RangeCamera& camera, const Vec3& axis) const;
-  [[nodiscard]] Visibility tally(const std::vector<PackedVoxel>& voxels, const RangeCamera& camera,
+  [[nodiscard]] Visibility tally(const std::vector<std::uint32_t>& voxels, const RangeCamera& camera,
                                  const Vec3& axis) const;
 };
 
-void VisibilityEvaluator::Prepared::splat_all(const PixelFrame& frame, const std::vector<PackedVoxel>& candidates,
-                                              Scratch& memory) {
-  for (const PackedVoxel& voxel : candidates) {
-    if (splat(frame, voxel.index(), memory.coverage)) memory.visible.push_back(voxel);
+void VisibilityEvaluator::Prepared::splat_all(const Pass& pass, const Region& region,
+                                              const std::vector<std::uint32_t>& candidates, Scratch& memory) const {
+  const std::size_t before = memory.visible.size();
+  if (is_batch_region(region)) {
+    memory.visible.resize(before + candidates.size());
+    const std::size_t seen = splat_batch(pass.batch, batch_region(pass.frame, region), candidates.data(),
+                                         candidates.size(), memory.visible.data() + before);
+    memory.visible.resize(before + seen);
+    return;
+  }
+  for (const std::uint32_t voxel : candidates) {
+    if (splat(pass.frame, PackedVoxel{voxel}.index(), memory.coverage)) memory.visible.push_back(voxel);
   }
 }
 
-void VisibilityEvaluator::Prepared::splat_region(const PixelFrame& frame, const Region& region,
-                                                 const FirstVoxels* first, Scratch& memory) const {
+void VisibilityEvaluator::Prepared::splat_region(const Pass& pass, const Region& region, const FirstVoxels* first,
+                                                 Scratch& memory) const {
   const bool is_whole = region.is_octant() && region.box.size() == map.layout().size;
-  const std::vector<PackedVoxel>* octant = is_whole && !first ? exposed.octant(region.side) : nullptr;
+  const std::vector<std::uint32_t>* octant = is_whole && !first ? exposed.octant(region.side) : nullptr;
   if (octant) {
-    splat_all(frame, *octant, memory);
+    splat_all(pass, region, *octant, memory);
     return;
   }
   for (const Region& slice : slices(region)) {
     memory.candidates.clear();
     exposed.collect(slice, first, memory.candidates);
-    splat_all(frame, memory.candidates, memory);
+    splat_all(pass, region, memory.candidates, memory);
   }
 }
 
-const std::vector<PackedVoxel>* VisibilityEvaluator::Prepared::splat_view(const RangeCamera& camera, const View& view,
-                                                                          Resolution resolution) const {
+const std::vector<std::uint32_t>* VisibilityEvaluator::Prepared::splat_view(const RangeCamera& camera, const View& view,
+                                                                            Resolution resolution) const {
   const PixelFrame frame(map.grid(), map.enclosure(), camera, view, resolution);
   if (!frame.is_regular() || map.layout().size.maxCoeff() > PackedVoxel::max_side) return nullptr;
   Scratch& memory = scratch.local();
   memory.coverage.reset(resolution);
   memory.visible.clear();
+  const Pass pass(frame, memory.coverage);
   const std::optional<FirstVoxels> first = first_voxels(frame);
   for (const Region& region : regions_front_to_back(map.layout().size, frame.local_cell())) {
-    splat_region(frame, region, first ? &*first : nullptr, memory);
+    splat_region(pass, region, first ? &*first : nullptr, memory);
   }
   return &memory.visible;
 }
@@ -134,11 +164,12 @@ bool VisibilityEvaluator::Prepared::counts(const PackedVoxel& voxel, const Range
   return normal.isZero(0) || !(facing_cosine(axis, normal) < std::cos(*camera.max_incidence));
 }
 
-Visibility VisibilityEvaluator::Prepared::tally(const std::vector<PackedVoxel>& voxels, const RangeCamera& camera,
+Visibility VisibilityEvaluator::Prepared::tally(const std::vector<std::uint32_t>& voxels, const RangeCamera& camera,
                                                 const Vec3& axis) const {
   std::array<std::int32_t, 4> kinds{};
   Visibility seen;
-  for (const PackedVoxel& voxel : voxels) {
+  for (const std::uint32_t bits : voxels) {
+    const PackedVoxel voxel{bits};
     if (!counts(voxel, camera, axis)) continue;
     ++kinds[voxel.kind()];
     if (voxel.kind() == PackedVoxel::occupied) {
@@ -152,13 +183,16 @@ Visibility VisibilityEvaluator::Prepared::tally(const std::vector<PackedVoxel>& 
   return seen;
 }
 
-VisibilityEvaluator::VisibilityEvaluator(const VoxelMap& map) : prepared_(std::make_unique<const Prepared>(map)) {}
+VisibilityEvaluator::VisibilityEvaluator(const VoxelMap& map)
+    : VisibilityEvaluator(map, available_instruction_sets().back()) {}
+VisibilityEvaluator::VisibilityEvaluator(const VoxelMap& map, InstructionSet instructions)
+    : prepared_(std::make_unique<const Prepared>(map, instructions)) {}
 VisibilityEvaluator::~VisibilityEvaluator() = default;
 VisibilityEvaluator::VisibilityEvaluator(VisibilityEvaluator&&) noexcept = default;
 VisibilityEvaluator& VisibilityEvaluator::operator=(VisibilityEvaluator&&) noexcept = default;
 
 Visibility VisibilityEvaluator::see(const RangeCamera& camera, const View& view, Resolution resolution) const {
-  const std::vector<PackedVoxel>* voxels = prepared_->splat_view(camera, view, resolution);
+  const std::vector<std::uint32_t>* voxels = prepared_->splat_view(camera, view, resolution);
   if (!voxels) return see_exactly(prepared_->map, camera, view, resolution);
   Visibility seen = prepared_->tally(*voxels, camera, view.axis());
   seen.rays = resolution.rays();
@@ -167,12 +201,13 @@ Visibility VisibilityEvaluator::see(const RangeCamera& camera, const View& view,
 
 std::vector<Index3> VisibilityEvaluator::visible_voxels(const RangeCamera& camera, const View& view,
                                                         Resolution resolution) const {
-  const std::vector<PackedVoxel>* voxels = prepared_->splat_view(camera, view, resolution);
+  const std::vector<std::uint32_t>* voxels = prepared_->splat_view(camera, view, resolution);
   if (!voxels) return visible_voxels_exactly(prepared_->map, camera, view, resolution);
   std::vector<PackedVoxel> counted;
   const Vec3 axis = view.axis();
-  std::copy_if(voxels->begin(), voxels->end(), std::back_inserter(counted),
-               [&](const PackedVoxel& voxel) { return prepared_->counts(voxel, camera, axis); });
+  for (const std::uint32_t voxel : *voxels) {
+    if (prepared_->counts({voxel}, camera, axis)) counted.push_back({voxel});
+  }
   std::sort(counted.begin(), counted.end(), [](PackedVoxel a, PackedVoxel b) { return a.place() < b.place(); });
   std::vector<Index3> indices;
   indices.reserve(counted.size());

@@ -20,6 +20,7 @@ TEST_P(RandomScenes, TheEvaluatorSeesWhatExactRaysSee) {
   constexpr int scenes = 400;
   const auto [kind, stand] = GetParam();
   Random random(17, 10 * static_cast<std::uint64_t>(kind) + static_cast<std::uint64_t>(stand));
+  const std::vector<InstructionSet> instruction_sets = available_instruction_sets();
   int compared = 0;
   int with_something_to_see = 0;
   std::int64_t voxels = 0;
@@ -28,15 +29,18 @@ TEST_P(RandomScenes, TheEvaluatorSeesWhatExactRaysSee) {
     const View view = test::random_view(map, random, stand);
     const RangeCamera camera = test::random_camera(map, view, random);
     const Resolution resolution = test::random_resolution(random);
-    const VisibilityEvaluator evaluator(map);
     const std::vector<Index3> expected = visible_voxels_exactly(map, camera, view, resolution);
-    ASSERT_EQ(evaluator.visible_voxels(camera, view, resolution), expected) << "scene " << scene;
-    ASSERT_EQ(evaluator.see(camera, view, resolution), see_exactly(map, camera, view, resolution)) << "scene " << scene;
-    ++compared;
+    const Visibility expected_counts = see_exactly(map, camera, view, resolution);
+    for (const InstructionSet set : instruction_sets) {
+      const VisibilityEvaluator evaluator(map, set);
+      ASSERT_EQ(evaluator.visible_voxels(camera, view, resolution), expected) << name(set) << ", scene " << scene;
+      ASSERT_EQ(evaluator.see(camera, view, resolution), expected_counts) << name(set) << ", scene " << scene;
+      ++compared;
+    }
     with_something_to_see += !expected.empty();
     voxels += static_cast<std::int64_t>(expected.size());
   }
-  EXPECT_EQ(compared, scenes);
+  EXPECT_EQ(compared, scenes * static_cast<int>(instruction_sets.size()));
   EXPECT_GT(with_something_to_see, scenes / 3);
   EXPECT_GT(voxels, 4 * scenes);
 }

@@ -1,0 +1,11 @@
+#include "vantage/visibility/splat_kernel.hpp"
+#include "vantage/visibility/vector_avx512.hpp"
+
+namespace vantage {
+
+std::size_t splat_batch_avx512(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
+                               std::size_t count, std::uint32_t* visible) {
+  return simd::splat_batches<simd::VectorAvx512>(view, region, voxels, count, visible);
+}
+
+}  // namespace vantage

@@ -1,0 +1,310 @@
+#pragma once
+
+#include "vantage/visibility/splat_batch.hpp"
+
+// The vectorised path, written once for all vector types V: one voxel per lane. See docs/performance.md for the figure
+// to which the names belong. Only templates on V here, see splat_batch.hpp.
+namespace vantage::simd {
+
+/// What is found out about a batch of voxels before their pixels are looked at, one voxel per lane. A voxel's window
+/// are the 16 columns from a tile's border on, and up to 16 rows, that enclose its silhouette.
+template <class V>
+struct Window {
+  typename V::Float column, row;  // the projected centre, from the window's first pixel
+  typename V::Float inverse_depth;
+  typename V::Int first_column, first_row;  // of the window; in the frame
+  typename V::Int rows;
+  typename V::Int outside;  // mask: no pixel of the frame lies in the silhouette's bounds
+  typename V::Int special;  // mask: left to double precision
+};
+
+/// The silhouette's borders as columns left[k] + row*left_slope[k] < column < right[k] + row*right_slope[k], for pixels
+/// from the window's first one.
+template <class V>
+struct Borders {
+  typename V::Float left[3], left_slope[3], right[3], right_slope[3];
+  typename V::Float steepness;  // largest 1/|column| of the half-planes
+  typename V::Int special;
+};
+
+/// 16 x 16 pixels per lane: four rows of eight pixels per word, in the columns 0..7 (left) and 8..15 (right).
+template <class V>
+struct Stamp {
+  alignas(64) std::uint32_t left[4][V::lanes];
+  alignas(64) std::uint32_t right[4][V::lanes];
+};
+
+constexpr float window_side = 16;
+constexpr float slope_of_level = 0x1p16F;  // columns per row that stand for a level line
+constexpr float levelness = 0x1p-11F;      // lines of a smaller |column/row| are level
+constexpr float sub_pixels = 0x1p16F;      // columns are compared in fixed point
+constexpr std::int32_t sub_pixel_bits = 16;
+
+template <class V>
+struct Center {
+  typename V::Float offset[3];  // from the camera, in voxels
+  typename V::Float pixel[3];   // (column*depth, row*depth, depth)
+};
+
+template <class V>
+Center<V> center_of(const BatchView& view, typename V::Int voxels) {
+  using Float = typename V::Float;
+  const Float index[3] = {V::to_float(voxels & V::all(1023)) - V::all(view.middle[0]),
+                          V::to_float((voxels >> 10) & V::all(1023)) - V::all(view.middle[1]),
+                          V::to_float((voxels >> 20) & V::all(1023)) - V::all(view.middle[2])};
+  Center<V> center;
+  for (int a = 0; a < 3; ++a) {
+    center.offset[a] = index[a] + V::all(view.offset[a]);
+    Float sum = V::all(view.pixel_of_offset[a]);
+    for (int b = 0; b < 3; ++b) sum = V::multiply_add(V::all(view.pixel_per_voxel[a][b]), index[b], sum);
+    center.pixel[a] = sum;
+  }
+  return center;
+}
+
+/// How far the silhouette reaches from its centre, in pixels: see extent() in footprint.cpp for the bound.
+template <class V>
+typename V::Float reach(const float (&pixel)[3], const float (&depth)[3], typename V::Float middle,
+                        typename V::Float inverse_nearest) {
+  typename V::Float sum = V::all(0.0F);
+  for (int a = 0; a < 3; ++a) {
+    sum += V::absolute(V::multiply_add(-middle, V::all(depth[a]), V::all(pixel[a])));
+  }
+  return V::all(0.5F) * sum * inverse_nearest;
+}
+
+template <class V>
+Window<V> window_of(const BatchView& view, const Center<V>& center) {
+  using Float = typename V::Float;
+  using Int = typename V::Int;
+  const Float depth = center.pixel[2];
+  const Float nearest = depth - V::all(view.half_depth);
+  const Float farthest = depth + V::all(view.half_depth);
+  const Int is_cut = (nearest < V::all(view.nearest_depth)) | (farthest > V::all(view.farthest_depth));
+  const Int is_unseen = (farthest < V::all(view.before_depth)) | (nearest > V::all(view.beyond_depth));
+  const Float safe_depth = V::max(depth, V::all(view.nearest_depth));
+  const Float inverse_depth = V::all(1.0F) / safe_depth;
+  const Float inverse_nearest = V::all(1.0F) / V::max(nearest, V::all(view.nearest_depth));
+  const Float column = center.pixel[0] * inverse_depth;
+  const Float row = center.pixel[1] * inverse_depth;
+  const Float column_reach =
+      reach<V>(view.pixel_per_voxel[0], view.pixel_per_voxel[2], column, inverse_nearest) + V::all(0.01F);
+  const Float row_reach =
+      reach<V>(view.pixel_per_voxel[1], view.pixel_per_voxel[2], row, inverse_nearest) + V::all(0.01F);
+  const Float far_out = V::all(0x1p20F);  // keeps the conversions to integers in range
+  const auto whole = [&](Float x) { return V::floor(V::max(V::min(x, far_out), -far_out)); };
+  const Int first_column = whole(column - column_reach) + V::all(view.middle_column + 1);
+  const Int last_column = whole(column + column_reach) + V::all(view.middle_column);
+  const Int first_row = whole(row - row_reach) + V::all(view.middle_row + 1);
+  const Int last_row = whole(row + row_reach) + V::all(view.middle_row);
+
+  Window<V> window;
+  window.inverse_depth = inverse_depth;
+  window.first_column = first_column & V::all(~7);
+  window.first_row = first_row;
+  window.rows = last_row - first_row + 1;
+  const Int is_off = ((last_column < 0) | (last_row < 0) | (first_column >= V::all(view.columns)) |
+                      (first_row >= V::all(view.rows)) | (first_column > last_column) | (first_row > last_row));
+  window.outside = is_unseen | (is_off & ~is_cut);
+  const Int is_large = (last_column - window.first_column >= 16) | (last_row - (first_row & V::all(~7)) >= 16);
+  window.special = is_cut | is_large;
+  window.column = column - V::to_float(window.first_column - V::all(view.middle_column));
+  window.row = row - V::to_float(window.first_row - V::all(view.middle_row));
+  return window;
+}
+
+/// One of a pair's two half-planes, about the projected centre: column*c + row*r + constant > 0.
+template <class V>
+struct HalfPlane {
+  typename V::Float column, row, constant;
+};
+
+/// A line's border column as slope*r + offset, and 1/|column|. `sense` has the sign that `column` must have; a level
+/// line becomes a very steep one of that sense. Lines that fit neither are special.
+template <class V>
+struct Border {
+  typename V::Float slope, offset, steepness;
+  typename V::Int special;
+};
+
+template <class V>
+Border<V> border_of(const BatchView& view, const Window<V>& window, const HalfPlane<V>& line, typename V::Float sense) {
+  using Float = typename V::Float;
+  using Int = typename V::Int;
+  const Float column_size = V::absolute(line.column);
+  const Float row_size = V::absolute(line.row);
+  const Int is_level = column_size <= V::all(levelness) * row_size;
+  const Int is_against = line.column * sense <= V::all(0.0F);
+  Border<V> border;
+  border.special = is_against & ~is_level;
+  Float column = line.column;
+  border.steepness = V::all(0.0F);
+  if (V::lane_bits(is_level) != 0) {
+    column = V::select(is_level, sense * V::max(row_size, V::all(0x1p-60F)) * V::all(1 / slope_of_level), column);
+    // The row in which the line lies must be told apart from the pixels' rows.
+    const Float far_off = V::all(0x1p20F);
+    const Float crossing = V::max(V::min(window.row - line.constant / line.row, far_off), -far_off);
+    const Float doubt = V::all(view.row_error + 64 / slope_of_level) +
+                        (V::all(2 * window_side) * column_size + V::all(view.line_error)) / row_size;
+    const Float near_row = V::absolute(crossing - V::to_float(V::floor(crossing + V::all(0.5F))));
+    border.special |= is_level & ~(near_row > doubt);
+  }
+  const Float inverse = V::all(1.0F) / column;
+  border.steepness = V::select(is_level, V::all(0.0F), V::absolute(inverse));
+  border.slope = -line.row * inverse;
+  border.offset = V::multiply_add(-border.slope, window.row, -line.constant * inverse) + window.column;
+  return border;
+}
+
+template <class V>
+Borders<V> borders_of(const BatchView& view, const BatchRegion& region, const Center<V>& center,
+                      const Window<V>& window) {
+  using Float = typename V::Float;
+  Float distance[3];
+  for (int a = 0; a < 3; ++a) distance[a] = V::all(region.side[a]) * center.offset[a];
+  Borders<V> borders;
+  borders.steepness = V::all(0.0F);
+  borders.special = V::all(0);
+  for (int c = 0; c < 3; ++c) {
+    const int a = (c + 1) % 3;
+    const int b = (c + 2) % 3;
+    const BatchPair& pair = region.pair[c];
+    const Float p = distance[b] * V::all(region.side[a] * view.per_column[a]) -
+                    distance[a] * V::all(region.side[b] * view.per_column[b]);
+    const Float q =
+        distance[b] * V::all(region.side[a] * view.per_row[a]) - distance[a] * V::all(region.side[b] * view.per_row[b]);
+    const Float half = V::all(0.5F);
+    const HalfPlane<V> lines[2] = {{p + V::all(pair.column[0]), q + V::all(pair.row[0]),
+                                    (V::all(pair.half[0]) * distance[a] + half * distance[b]) * window.inverse_depth},
+                                   {V::all(pair.column[1]) - p, V::all(pair.row[1]) - q,
+                                    (V::all(pair.half[1]) * distance[b] + half * distance[a]) * window.inverse_depth}};
+    // The first line is on the left where p > 0.
+    const auto is_first_left = p >= V::all(0.0F);
+    const Float sense = V::select(is_first_left, V::all(1.0F), V::all(-1.0F));
+    const Border<V> first = border_of<V>(view, window, lines[0], sense);
+    const Border<V> second = border_of<V>(view, window, lines[1], -sense);
+    borders.left[c] = V::select(is_first_left, first.offset, second.offset);
+    borders.left_slope[c] = V::select(is_first_left, first.slope, second.slope);
+    borders.right[c] = V::select(is_first_left, second.offset, first.offset);
+    borders.right_slope[c] = V::select(is_first_left, second.slope, first.slope);
+    borders.steepness = V::max(borders.steepness, V::max(first.steepness, second.steepness));
+    borders.special |= first.special | second.special;
+  }
+  return borders;
+}
+
+/// Marks the pixels between the borders, row by row. Returns a mask of the lanes in which a border runs closer to a
+/// pixel than its rounding, so that only the exact test can tell.
+template <class V>
+typename V::Int draw(const BatchView& view, Borders<V>& borders, std::int32_t rows, Stamp<V>& stamp) {
+  using Float = typename V::Float;
+  using Int = typename V::Int;
+  const Float error =
+      V::multiply_add(borders.steepness, V::all(view.column_error_of_steepness), V::all(view.column_error));
+  const Float scale = V::all(sub_pixels);
+  const Float shift = V::all(1.0F) + error;  // floor(x + 1) is the first pixel to the right of x
+  for (int k = 0; k < 3; ++k) {
+    borders.left[k] = (borders.left[k] + shift) * scale;
+    borders.right[k] = (borders.right[k] + shift) * scale;
+    borders.left_slope[k] *= scale;
+    borders.right_slope[k] *= scale;
+  }
+  const Float lowest = V::all(0.5F * sub_pixels);
+  const Float highest = V::all((window_side + 0.5F) * sub_pixels);
+  const Int fraction = V::all((1 << sub_pixel_bits) - 1);
+  Int closest = fraction;
+  const auto row_bits = [&](std::int32_t row) {
+    const Float r = V::all(static_cast<float>(row));
+    Float left = V::multiply_add(borders.left_slope[0], r, borders.left[0]);
+    Float right = V::multiply_add(borders.right_slope[0], r, borders.right[0]);
+    for (int k = 1; k < 3; ++k) {
+      left = V::max(left, V::multiply_add(borders.left_slope[k], r, borders.left[k]));
+      right = V::min(right, V::multiply_add(borders.right_slope[k], r, borders.right[k]));
+    }
+    const Int from = V::truncate(V::min(V::max(left, lowest), highest));
+    const Int to = V::truncate(V::min(V::max(right, lowest), highest));
+    closest = V::min(closest, V::min(from & fraction, to & fraction));
+    return V::ones_above(from >> sub_pixel_bits) & ~V::ones_above(to >> sub_pixel_bits);
+  };
+  const Int low_bytes = V::all(0x00ff00ff);
+  std::int32_t group = 0;
+  for (; 4 * group < rows; ++group) {
+    const Int even = row_bits(4 * group) | row_bits(4 * group + 2) << 16;
+    const Int odd = row_bits(4 * group + 1) | row_bits(4 * group + 3) << 16;
+    V::store(stamp.left[group], (even & low_bytes) | (odd & low_bytes) << 8);
+    V::store(stamp.right[group], ((even >> 8) & low_bytes) | (odd & ~low_bytes));
+  }
+  for (; group < 4; ++group) {  // of the batch before
+    V::store(stamp.left[group], V::all(0));
+    V::store(stamp.right[group], V::all(0));
+  }
+  return (closest <= V::truncate(V::multiply_add(error, V::all(2 * sub_pixels), V::all(4.0F)))) |
+         (error > V::all(0.1F));
+}
+
+/// Covers the open pixels of one lane's stamp; whether there were any.
+template <class V>
+bool press(const BatchView& view, const Stamp<V>& stamp, int lane, std::int32_t first_column, std::int32_t first_row,
+           std::int32_t rows) {
+  std::uint64_t* tile = view.tiles + (first_row >> 3) * view.stride + (first_column >> 3);
+  const unsigned shift = 8 * (static_cast<unsigned>(first_row) & 7U);
+  std::uint64_t any = 0;
+  const auto half = [&](const std::uint32_t(&words)[4][V::lanes], std::uint64_t* at) {
+    const std::uint64_t above = words[0][lane] | static_cast<std::uint64_t>(words[1][lane]) << 32U;
+    const std::uint64_t upper = above << shift;
+    // Shifted in two steps, because shifting by 64 does nothing.
+    std::uint64_t lower = above >> 1U >> (63U - shift);
+    if (rows > 8) lower |= (words[2][lane] | static_cast<std::uint64_t>(words[3][lane]) << 32U) << shift;
+    any |= (upper & ~at[0]) | (lower & ~at[view.stride]);
+    at[0] |= upper;
+    at[view.stride] |= lower;
+  };
+  half(stamp.left, tile);
+  half(stamp.right, tile + 1);
+  return any != 0;
+}
+
+template <class V>
+std::size_t splat_batches(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
+                          std::size_t count, std::uint32_t* visible) {
+  using Int = typename V::Int;
+  constexpr std::size_t lanes = V::lanes;
+  Stamp<V> stamp;
+  alignas(64) std::uint32_t first_column[lanes];
+  alignas(64) std::uint32_t first_row[lanes];
+  alignas(64) std::uint32_t rows[lanes];
+  std::uint32_t last_batch[lanes] = {};
+  std::size_t seen = 0;
+  for (std::size_t begin = 0; begin < count; begin += lanes) {
+    const std::size_t used = count - begin < lanes ? count - begin : lanes;
+    const std::uint32_t* batch = voxels + begin;
+    if (used < lanes) {
+      __builtin_memcpy(last_batch, batch, used * sizeof *batch);
+      batch = last_batch;
+    }
+    const Center<V> center = center_of<V>(view, V::load(batch));
+    const Window<V> window = window_of<V>(view, center);
+    unsigned active = ~V::lane_bits(window.outside) & ((2U << (used - 1)) - 1);
+    if (active == 0) continue;
+    Borders<V> borders = borders_of<V>(view, region, center, window);
+    const Int is_drawn = ~(window.outside | window.special | borders.special);
+    const Int doubtful = draw<V>(view, borders, V::largest(window.rows & is_drawn), stamp);
+    const unsigned special = V::lane_bits(~is_drawn | doubtful);
+    V::store(first_column, window.first_column);
+    V::store(first_row, window.first_row);
+    V::store(rows, window.rows);
+    for (; active != 0; active &= active - 1) {
+      const int lane = __builtin_ctz(active);
+      const bool is_visible =
+          (special >> lane & 1U) != 0
+              ? view.splat_one(view.context, batch[lane])
+              : press<V>(view, stamp, lane, static_cast<std::int32_t>(first_column[lane]),
+                         static_cast<std::int32_t>(first_row[lane]), static_cast<std::int32_t>(rows[lane]));
+      visible[seen] = batch[lane];
+      seen += is_visible ? 1 : 0;
+    }
+  }
+  return seen;
+}
+
+}  // namespace vantage::simd

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace vantage::simd {
+
+/// Eight lanes. Only for files that are compiled with -mavx2 -mfma.
+struct VectorAvx2 {
+  static constexpr int lanes = 8;
+  using Float = __m256;
+  using Int = std::int32_t __attribute__((vector_size(32)));
+
+  static Float all(float x) { return _mm256_set1_ps(x); }
+  static Int all(std::int32_t x) { return Int(_mm256_set1_epi32(x)); }
+  static Int load(const std::uint32_t* from) { return Int(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))); }
+  static void store(std::uint32_t* to, Int x) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), __m256i(x)); }
+  static Float to_float(Int x) { return _mm256_cvtepi32_ps(__m256i(x)); }
+  static Int truncate(Float x) { return Int(_mm256_cvttps_epi32(x)); }
+  static Int floor(Float x) { return truncate(_mm256_floor_ps(x)); }
+  static Float multiply_add(Float a, Float b, Float c) { return _mm256_fmadd_ps(a, b, c); }
+  static Float min(Float a, Float b) { return _mm256_min_ps(a, b); }
+  static Float max(Float a, Float b) { return _mm256_max_ps(a, b); }
+  static Int min(Int a, Int b) { return Int(_mm256_min_epi32(__m256i(a), __m256i(b))); }
+  static Int max(Int a, Int b) { return Int(_mm256_max_epi32(__m256i(a), __m256i(b))); }
+  static Float absolute(Float x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), x); }
+  static Int float_to_bits(Float x) { return Int(_mm256_castps_si256(x)); }
+  static Float bits_to_float(Int x) { return _mm256_castsi256_ps(__m256i(x)); }
+  static Float select(Int mask, Float yes, Float no) {
+    return _mm256_blendv_ps(no, yes, _mm256_castsi256_ps(__m256i(mask)));
+  }
+  static Int ones_above(Int counts) { return Int(_mm256_sllv_epi32(_mm256_set1_epi32(-1), __m256i(counts))); }
+  static unsigned lane_bits(Int mask) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(__m256i(mask))));
+  }
+  static std::int32_t largest(Int x) {
+    __m128i half = _mm_max_epi32(_mm256_castsi256_si128(__m256i(x)), _mm256_extracti128_si256(__m256i(x), 1));
+    half = _mm_max_epi32(half, _mm_shuffle_epi32(half, 0x4e));
+    half = _mm_max_epi32(half, _mm_shuffle_epi32(half, 0xb1));
+    return _mm_cvtsi128_si32(half);
+  }
+};
+
+}  // namespace vantage::simd

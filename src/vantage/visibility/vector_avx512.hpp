@@ -1,0 +1,38 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace vantage::simd {
+
+/// Sixteen lanes. Only for files that are compiled with -mavx512f -mavx512dq.
+struct VectorAvx512 {
+  static constexpr int lanes = 16;
+  using Float = __m512;
+  using Int = std::int32_t __attribute__((vector_size(64)));
+
+  static Float all(float x) { return _mm512_set1_ps(x); }
+  static Int all(std::int32_t x) { return Int(_mm512_set1_epi32(x)); }
+  static Int load(const std::uint32_t* from) { return Int(_mm512_loadu_si512(from)); }
+  static void store(std::uint32_t* to, Int x) { _mm512_storeu_si512(to, __m512i(x)); }
+  static Float to_float(Int x) { return _mm512_cvtepi32_ps(__m512i(x)); }
+  static Int truncate(Float x) { return Int(_mm512_cvttps_epi32(x)); }
+  static Int floor(Float x) { return Int(_mm512_cvt_roundps_epi32(x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)); }
+  static Float multiply_add(Float a, Float b, Float c) { return _mm512_fmadd_ps(a, b, c); }
+  static Float min(Float a, Float b) { return _mm512_min_ps(a, b); }
+  static Float max(Float a, Float b) { return _mm512_max_ps(a, b); }
+  static Int min(Int a, Int b) { return Int(_mm512_min_epi32(__m512i(a), __m512i(b))); }
+  static Int max(Int a, Int b) { return Int(_mm512_max_epi32(__m512i(a), __m512i(b))); }
+  static Float absolute(Float x) { return _mm512_abs_ps(x); }
+  static Int float_to_bits(Float x) { return Int(_mm512_castps_si512(x)); }
+  static Float bits_to_float(Int x) { return _mm512_castsi512_ps(__m512i(x)); }
+  static Float select(Int mask, Float yes, Float no) {
+    return _mm512_mask_mov_ps(no, _mm512_movepi32_mask(__m512i(mask)), yes);
+  }
+  static Int ones_above(Int counts) { return Int(_mm512_sllv_epi32(_mm512_set1_epi32(-1), __m512i(counts))); }
+  static unsigned lane_bits(Int mask) { return _mm512_movepi32_mask(__m512i(mask)); }
+  static std::int32_t largest(Int x) { return _mm512_reduce_max_epi32(__m512i(x)); }
+};
+
+}  // namespace vantage::simd

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+
+namespace vantage::simd {
+
+/// Four lanes in the compiler's own vectors: runs everywhere. The same interface as VectorAvx2 and VectorAvx512.
+struct VectorPortable {
+  static constexpr int lanes = 4;
+  using Float = float __attribute__((vector_size(16)));
+  using Int = std::int32_t __attribute__((vector_size(16)));
+
+  static Float all(float x) { return Float{x, x, x, x}; }
+  static Int all(std::int32_t x) { return Int{x, x, x, x}; }
+  static Int load(const std::uint32_t* from) {
+    Int x;
+    __builtin_memcpy(&x, from, sizeof x);
+    return x;
+  }
+  static void store(std::uint32_t* to, Int x) { __builtin_memcpy(to, &x, sizeof x); }
+  static Float to_float(Int x) { return __builtin_convertvector(x, Float); }
+  static Int truncate(Float x) { return __builtin_convertvector(x, Int); }
+  static Int floor(Float x) {
+    const Int down = truncate(x);
+    return down + (to_float(down) > x);  // a true comparison is -1
+  }
+  static Float multiply_add(Float a, Float b, Float c) { return a * b + c; }
+  static Float min(Float a, Float b) { return a < b ? a : b; }
+  static Float max(Float a, Float b) { return a > b ? a : b; }
+  static Int min(Int a, Int b) { return a < b ? a : b; }
+  static Int max(Int a, Int b) { return a > b ? a : b; }
+  static Float absolute(Float x) { return bits_to_float(float_to_bits(x) & all(0x7fffffff)); }
+  static Int float_to_bits(Float x) { return reinterpret_cast<Int>(x); }
+  static Float bits_to_float(Int x) { return reinterpret_cast<Float>(x); }
+  static Float select(Int mask, Float yes, Float no) { return mask ? yes : no; }
+  /// All ones shifted left; counts 0..31 per lane.
+  static Int ones_above(Int counts) { return all(-1) << counts; }
+  /// One bit per lane of a mask.
+  static unsigned lane_bits(Int mask) {
+    unsigned bits = 0;
+    for (int i = 0; i < lanes; ++i) bits |= (mask[i] != 0 ? 1U : 0U) << i;
+    return bits;
+  }
+  static std::int32_t largest(Int x) {
+    std::int32_t most = x[0];
+    for (int i = 1; i < lanes; ++i) most = x[i] > most ? x[i] : most;
+    return most;
+  }
+};
+
+}  // namespace vantage::simd
