@@ -1,7 +1,6 @@
 #include "vantage/io/report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/io/packed_array.hpp"
 #include "vantage/io/report_geometry.hpp"
+#include "vantage/io/run_files.hpp"
 
 namespace vantage {
 namespace {
@@ -21,14 +21,6 @@ constexpr std::string_view data_place = R"(<script type="application/json" id="v
 constexpr std::string_view static_place = "<!--vantage-static-->";
 
 Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
-std::array<double, 7> pose_numbers(const View& view) {
-  const Vec3 p = view.position();
-  const Eigen::Quaterniond q(view.world_from_sensor.linear());
-  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
-}
-
-Json pose_json(const View& view) { return pose_numbers(view); }
 
 template <class T>
 Json or_null(const std::optional<T>& value) {
@@ -96,7 +88,7 @@ Json camera_json(const RangeCamera& camera) {
 Json candidates_json(const RunData& run) {
   std::vector<float> poses;
   for (const View& view : run.candidates.views) {
-    for (const double number : pose_numbers(view)) poses.push_back(static_cast<float>(number));
+    for (const double number : pose_numbers(view.world_from_sensor)) poses.push_back(static_cast<float>(number));
   }
   Json json{{"kind", run.candidates.kind == Candidates::Kind::sphere ? "sphere" : "list"},
             {"text", run.candidates_text},
@@ -160,37 +152,11 @@ Json plan_json(const CandidatePlan& plan) {
 
 Json scan_json(const RecordedScan& scan) {
   const ScanRecord& r = scan.record;
-  Json json{{"scan", r.scan},
-            {"candidate", r.candidate >= 0 ? Json(r.candidate) : Json(nullptr)},
-            {"commanded", pose_json(r.commanded)},
-            {"believed", pose_json(r.believed)},
-            {"registered", r.merged ? pose_json(r.registered) : Json(nullptr)}};
-  if (r.true_view) json["true_pose"] = pose_json(*r.true_view);
-  if (r.planned) {
-    const Evaluation& e = *r.planned;
-    json.update({{"n_oc", e.seen.occupied},
-                 {"n_op", e.seen.occplane},
-                 {"n_um", e.seen.unmarked},
-                 {"f_area", e.factors.f_area},
-                 {"f_navigation", e.factors.f_navigation},
-                 {"f_quality", e.factors.f_quality},
-                 {"f_occlusion", e.factors.f_occlusion},
-                 {"utility", e.utility}});
-  }
-  json.update({{"occupied", r.labels.occupied},
-               {"occplane", r.labels.occplane},
-               {"unmarked", r.labels.unmarked},
-               {"new_occupied", r.new_occupied},
-               {"mean_quality", r.mean_quality},
-               {"distance", r.distance},
-               {"coverage", or_null(r.coverage)},
-               {"coverage_all", or_null(r.coverage_all)},
-               {"overlap", r.overlap},
-               {"residual", r.residual},
-               {"verdict", r.verdict},
-               {"reason", r.reason},
-               {"plan", scan.plan ? plan_json(*scan.plan) : Json(nullptr)},
-               {"labels", packed_array<std::uint8_t>(scan.change.labels)}});
+  Json json = scan_json(r);
+  if (!r.merged) json["registered"] = nullptr;
+  if (r.true_view) json["true_pose"] = pose_numbers(r.true_view->world_from_sensor);
+  json["plan"] = scan.plan ? plan_json(*scan.plan) : Json(nullptr);
+  json["labels"] = packed_array<std::uint8_t>(scan.change.labels);
   json["surface"] = {{"voxels", packed_array<std::uint32_t>(scan.change.voxels, 1, PackedRows::differences)},
                      {"normals", packed_array<std::int8_t>(scan.change.normals, 3)},
                      {"quality", packed_array<std::uint8_t>(scan.change.quality)}};

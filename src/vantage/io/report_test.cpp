@@ -182,5 +182,24 @@ TEST(ReportHtml, FillsTheEmbeddedPage) {
   EXPECT_THAT(html, Not(HasSubstr("<script src")));
 }
 
+TEST(RunDataOfOptions, NotesWhatDiffersFromTheDefaults) {
+  ReconstructOptions options;
+  options.max_views = 7;
+  options.positioning_error = Vec3(0.05, 0.05, 0.1);
+  options.navigation = false;
+  options.size = 0.5;
+  TriangleMesh truth;
+  truth.vertices.emplace_back(1, 2, 3);
+  const RunData run = run_data(options, "mug", "1.2.3", truth);
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"--size", "0.5"},           {"--camera", "45x45:320x320"}, {"--candidates", "sphere:80:2"},
+      {"--search", "exhaustive"},  {"--navigation", "no"},        {"--positioning-error", "0.05,0.05,0.1"},
+      {"--registration", "truth"}, {"--max-views", "7"}};
+  EXPECT_EQ(run.options, expected);
+  EXPECT_EQ(run.candidates.views.size(), 80U);
+  EXPECT_EQ(run.enclosure.size(), Index3::Constant(55));
+  EXPECT_EQ(run.truth.vertices, truth.vertices);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -8,6 +8,7 @@
 
 #include "vantage/core/point_cloud.hpp"
 #include "vantage/core/triangle_mesh.hpp"
+#include "vantage/reconstruction/options.hpp"
 #include "vantage/reconstruction/reconstruction.hpp"
 
 namespace vantage {
@@ -85,5 +86,10 @@ struct RunData {
   MapRecorder recorder_;
   std::vector<std::size_t> cloud_sizes_;  // after each scan; a point keeps its place when a better one replaces it
 };
+
+/// The data of a simulated reconstruction before its first scan: scene, camera, candidates and the options that matter,
+/// those that differ from the defaults among them. `program` is the version, `truth` the placed mesh.
+[[nodiscard]] RunData run_data(const ReconstructOptions& options, const std::string& object, const std::string& program,
+                               const TriangleMesh& truth);
 
 }  // namespace vantage

@@ -168,7 +168,7 @@ export class Viewport {
   }
 
   private onKey(event: KeyboardEvent): void {
-    const turns: Record<string, () => void> = {
+    const turns = new Map<string, () => void>(Object.entries({
       ArrowLeft: () => this.orbit(-0.1, 0),
       ArrowRight: () => this.orbit(0.1, 0),
       ArrowUp: () => this.orbit(0, 0.1),
@@ -177,8 +177,8 @@ export class Viewport {
       "=": () => this.orbit(0, 0, 0.9),
       "-": () => this.orbit(0, 0, 1.1),
       Home: () => this.goHome(),
-    };
-    const turn = turns[event.key];
+    }));
+    const turn = turns.get(event.key);
     if (!turn || event.ctrlKey || event.metaKey || event.altKey) return;
     turn();
     event.preventDefault();

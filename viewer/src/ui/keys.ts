@@ -5,7 +5,9 @@ import { theme } from "./theme.ts";
 import type { Player } from "./timeline.ts";
 
 const NEXT_MODE: Record<LabelMode, LabelMode> = { hide: "fade", fade: "show", show: "hide" };
-const LAYER_KEYS: Record<string, Layer> = { v: "candidates", p: "path", f: "frustum", s: "seen", n: "normals", k: "cloud", m: "mesh", g: "truth" };
+const LAYER_KEYS = new Map<string, Layer>(
+  Object.entries({ v: "candidates", p: "path", f: "frustum", s: "seen", n: "normals", k: "cloud", m: "mesh", g: "truth" }),
+);
 
 /** What a key does, or null where it does nothing here. */
 export function keyAction(key: string, session: Session, player: Player, help: () => void): (() => void) | null {
@@ -15,7 +17,7 @@ export function keyAction(key: string, session: Session, player: Player, help: (
     const label = Number(key) - 1;
     return () => store.setLabel(label, NEXT_MODE[state.labels[label]]);
   }
-  const layer = LAYER_KEYS[key];
+  const layer = LAYER_KEYS.get(key);
   if (layer) return () => store.setLayer(layer, !state.layers[layer]);
   const axis = "xyz".indexOf(key);
   if (key.length === 1 && axis >= 0) {
@@ -39,7 +41,7 @@ export function keyAction(key: string, session: Session, player: Player, help: (
     "?": help,
     Escape: () => store.set({ selection: null }),
   };
-  return actions[key] ?? null;
+  return Object.hasOwn(actions, key) ? actions[key] : null;
 }
 
 export function listenForKeys(session: Session, player: Player, help: () => void): void {
