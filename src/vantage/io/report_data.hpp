@@ -7,6 +7,7 @@
 
 #include "vantage/core/point_cloud.hpp"
 #include "vantage/core/triangle_mesh.hpp"
+#include "vantage/io/run_data.hpp"
 #include "vantage/io/svg_map.hpp"
 #include "vantage/reconstruction/scan_record.hpp"
 
@@ -29,5 +30,9 @@ struct ReportData {
   Vec3 up = Vec3::UnitZ();                         // of the object, for the pictures
   std::optional<double> seconds;                   // wall-clock time of the whole run
 };
+
+/// What a recorded run shows; `run` and `map`, the map after the last scan, must outlive it. Throws InputError where
+/// the recorded changes do not fit the map.
+[[nodiscard]] ReportData report_data(const RunData& run, const VoxelMap& map);
 
 }  // namespace vantage

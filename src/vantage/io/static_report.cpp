@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "vantage/io/html_page.hpp"
-#include "vantage/io/label_colors.hpp"
+#include "vantage/io/report.hpp"
 #include "vantage/io/svg_plot.hpp"
 
 namespace vantage {
@@ -337,6 +337,13 @@ std::string static_report_body(const ReportData& data) {
                              choices_section, slices_section, times_section, options_section})
     body += section(data, captions);
   return body + fmt::format("<footer>{}</footer>\n</article>\n", escape_markup(data.program));
+}
+
+std::string report_page(RunData run, const VoxelMap& map, std::optional<double> seconds) {
+  ReportData data = report_data(run, map);
+  data.seconds = seconds;
+  run.static_html = static_report_body(data);
+  return report_html(run);
 }
 
 std::string static_report_html(const ReportData& data) {

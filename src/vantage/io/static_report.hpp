@@ -15,6 +15,10 @@ namespace vantage {
 /// The same as a whole page.
 [[nodiscard]] std::string static_report_html(const ReportData& data);
 
+/// report.html of a run: the interactive page, with the static sections for readers without JavaScript, and alone where
+/// the program was built without that page. `run.static_html` is replaced.
+[[nodiscard]] std::string report_page(RunData run, const VoxelMap& map, std::optional<double> seconds = std::nullopt);
+
 /// What the run came to in one sentence: views, coverage, distance and why it stopped.
 [[nodiscard]] std::string report_summary(const ReportData& data);
 

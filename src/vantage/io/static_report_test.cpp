@@ -104,6 +104,44 @@ TEST(StaticReport, ShowsWhatThereIsOfAnUnfinishedRun) {
   EXPECT_THAT(body, Not(ContainsRegex("[ \">(,]-?(nan|inf)[ \"<),]")));
 }
 
+TEST(ReportData, FollowsTheLayersOfARecordedRun) {
+  const SceneOptions scene{.scene_size = Index3::Constant(9), .enclosure_size = Index3::Constant(3)};
+  ObjectModel model(scene, 0.005);
+  RunData run;
+  run.object = "cube";
+  ScanRecord record;
+  model.map.set_label({3, 4, 4}, Label::empty);
+  model.map.set_label({3, 4, 5}, Label::empty);
+  run.add_scan(record, model, nullptr);
+  record.scan = 1;
+  model.map.add_point({4, 4, 4}, Vec3(1, 0, 0), 1);
+  run.add_scan(record, model, nullptr);
+  const ReportData data = report_data(run, model.map);
+  EXPECT_EQ(data.object, "cube");
+  EXPECT_EQ(data.map, &model.map);
+  ASSERT_EQ(data.layers.size(), 2U);
+  EXPECT_EQ(data.layers[1].first, 1);
+  EXPECT_EQ(data.layers[0].second.labels,
+            (std::vector<Label>{Label::unmarked, Label::unmarked, Label::unmarked, Label::empty, Label::unmarked,
+                                Label::unmarked, Label::unmarked, Label::unmarked, Label::unmarked}));
+  EXPECT_EQ(data.layers[1].second.labels, label_layer(model.map, 4).labels);
+}
+
+TEST(ReportPage, HoldsTheDataAndTheStaticSections) {
+  SmallRun small;
+  RunData run;
+  run.object = "mug </script>";
+  run.candidates = small.data.candidates;
+  run.scans.push_back({small.data.scans[0], std::nullopt, {}});
+  ObjectModel model(SceneOptions{.scene_size = Index3::Constant(9), .enclosure_size = Index3::Constant(3)}, 0.005);
+  run.scans[0].change.labels.resize(27);
+  const std::string page = report_page(run, model.map, 12.5);
+  EXPECT_THAT(page, HasSubstr("<article class=\"report\">"));
+  EXPECT_THAT(page, HasSubstr("<h1>mug &lt;/script&gt;</h1>"));
+  EXPECT_THAT(page, HasSubstr("\"format\":\"vantage-run\""));
+  EXPECT_THAT(page, Not(HasSubstr("<!--vantage-static-->")));
+}
+
 TEST(StaticReport, PrefersTheMeshThenTheCloudThenTheVoxels) {
   SmallRun run;
   EXPECT_EQ(model_scene(run.data).facets.front().finish, PictureScene::Finish::voxel);
