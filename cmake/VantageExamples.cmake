@@ -12,3 +12,7 @@ endfunction()
 
 vantage_example(01_plan_a_view vantage::core "scan 3: .*next view [0-9]+: best of 80")
 vantage_example(02_keep_the_robot_safe vantage::core "are feasible.*workspace")
+if(VANTAGE_APPS)
+  vantage_example(03_reconstruct_in_simulation vantage::full "covered after [0-9]+ scans")
+  vantage_example(04_your_own_robot vantage::full "finished: ")
+endif()

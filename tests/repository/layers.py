@@ -55,7 +55,7 @@ def why_forbidden(folder, header, is_test):
     if ".." in parts:
         return "leaves its folder; write vantage/FOLDER/FILE.hpp"
     if folder in CORE_FOLDERS and not is_test:
-        standard = "." not in header or header in CORE_COMPILER_HEADERS
+        standard = len(parts) == 1 and "." not in header or header in CORE_COMPILER_HEADERS
         if not standard and parts[0] not in CORE_PACKAGES:
             return "vantage::core needs only Eigen, oneTBB and the standard library"
     return None
