@@ -24,6 +24,10 @@ set(consumer ${CMAKE_COMMAND} -DCONSUMER=${PROJECT_SOURCE_DIR}/tests/consumer -D
 set(check -P ${PROJECT_SOURCE_DIR}/tests/consumer/check.cmake)
 vantage_check(Consumer.FindsTheInstalledPackage ${consumer} -DBUILD=${PROJECT_BINARY_DIR}
               -DWORK=${PROJECT_BINARY_DIR}/consumer/installed ${check})
+if(VANTAGE_APPS)
+  vantage_check(Consumer.FindsAllComponents ${consumer} -DBUILD=${PROJECT_BINARY_DIR} -DFULL=ON
+                -DWORK=${PROJECT_BINARY_DIR}/consumer/full ${check})
+endif()
 # Compiles the planner once more.
 vantage_check(Consumer.EmbedsTheSource ${consumer} -DSOURCE=${PROJECT_SOURCE_DIR}
               -DWORK=${PROJECT_BINARY_DIR}/consumer/embedded ${check})

@@ -1,5 +1,6 @@
 # Builds the consumer in WORK against the installed or the embedded planner, runs it and looks at what it links.
-# -DWORK=folder -DCONSUMER=source -DCXX=compiler and either -DBUILD=build tree to install from or -DSOURCE=project.
+# -DWORK=folder -DCONSUMER=source -DCXX=compiler and either -DBUILD=build tree to install from (with -DFULL=ON: all of
+# its components) or -DSOURCE=project.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
@@ -15,7 +16,7 @@ if(BUILD)
   if(headers)
     message(FATAL_ERROR "installed among the headers: ${headers}")
   endif()
-  set(how -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+  set(how -DCMAKE_PREFIX_PATH=${WORK}/prefix -DVANTAGE_FULL=${FULL})
 else()
   set(how -DVANTAGE_SOURCE=${SOURCE})
 endif()

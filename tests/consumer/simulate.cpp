@@ -1,0 +1,28 @@
+// Takes a simulated scan, registers the same scan taken from a pose that is 5 mm off, and writes the cloud: a call into
+// each of the components that full stands for.
+#include <cstdio>
+#include <vantage/io/point_cloud_file.hpp>
+#include <vantage/reconstruction/registrar.hpp>
+#include <vantage/reconstruction/scan.hpp>
+#include <vantage/simulation/objects.hpp>
+#include <vantage/simulation/range_scanner.hpp>
+
+using namespace vantage;
+
+int main() {
+  const RangeScanner scanner(make_object("mug"));
+  const RangeCamera camera = camera_from_apertures(radians(45), radians(45), {160, 160});
+  const View view = view_towards({0, -2, 0.5}, Vec3::Zero());
+  const PointCloud scan = points_of(scan_of(scanner.scan(camera, view)));
+
+  ModelSurface model(0.005);
+  model.merge(scan, view.world_from_sensor);
+  View believed = view;
+  believed.world_from_sensor.pretranslate(Vec3(0.005, 0, 0));
+  const Located located = IcpRegistrar().locate(model, scan, believed);
+  const double error = (located.view.position() - view.position()).norm();
+  std::printf("%zu points, %s, pose within %.2f mm\n", scan.size(), located.verdict.c_str(), 1000 * error);
+
+  write_cloud_ply("scan.ply", scan);
+  return located.accepted && error < 0.0025 && read_cloud("scan.ply").cloud.size() == scan.size() ? 0 : 1;
+}
