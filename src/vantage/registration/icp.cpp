@@ -1,5 +1,6 @@
 #include "vantage/registration/icp.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -25,24 +26,39 @@ void weigh(std::vector<PlanePair>& pairs, double least_scale, double largest_sca
   }
 }
 
+PointCloud evenly_picked(const PointCloud& cloud, std::size_t most) {
+  if (cloud.size() <= most) return cloud;
+  PointCloud picked;
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t from = i * cloud.size() / most;
+    picked.add(cloud.points[from], cloud.normals[from]);
+  }
+  return picked;
+}
+
 }  // namespace
 
-IcpLevel::IcpLevel(const PointCloud& model, const PointCloud& scan, double cell)
-    : model_(make_surfels(model, cell)), model_index_(model_.cloud.points), scan_(make_surfels(scan, cell)) {}
+IcpLevel::IcpLevel(const PointCloud& model, const PointCloud& scan, double cell, std::size_t most_scan_surfels)
+    : model_(make_surfels(model, cell)),
+      model_index_(model_.cloud.points),
+      scan_(evenly_picked(make_surfels(scan, cell).cloud, most_scan_surfels)) {}
 
-std::vector<PlanePair> IcpLevel::pairs(const Pose& world_from_sensor, double max_distance, Borders borders) const {
+std::vector<PlanePair> IcpLevel::pairs(const Pose& world_from_sensor, double max_distance) const {
   constexpr std::size_t block_size = 128;
   std::vector<std::vector<PlanePair>> blocks((scan_.size() + block_size - 1) / block_size);
   parallel_for(blocks.size(), [&](std::size_t block) {
     const std::size_t end = std::min(scan_.size(), (block + 1) * block_size);
     for (std::size_t i = block * block_size; i < end; ++i) {
-      const Vec3 point = world_from_sensor * scan_.cloud.points[i];
+      const Vec3 point = world_from_sensor * scan_.points[i];
       const auto nearest = model_index_.nearest(point);
       if (!nearest || nearest->squared_distance > max_distance * max_distance) continue;
       const Vec3& normal = model_.cloud.normals[nearest->index];
-      if (borders == Borders::left_out && model_.on_border[nearest->index] != 0) continue;
-      if (normal.dot(world_from_sensor.linear() * scan_.cloud.normals[i]) < least_cosine) continue;
-      blocks[block].push_back({point, model_.cloud.points[nearest->index], normal});
+      if (model_.is_flat[nearest->index] == 0) continue;
+      const Vec3 scan_normal = world_from_sensor.linear() * scan_.normals[i];
+      if (normal.dot(scan_normal) < least_cosine) continue;
+      const Vec3 offset = point - model_.cloud.points[nearest->index];
+      if ((offset - normal * normal.dot(offset)).norm() > 1.5 * cell()) continue;
+      blocks[block].push_back({point, model_.cloud.points[nearest->index], normal, scan_normal});
     }
   });
   std::vector<PlanePair> pairs;
@@ -53,18 +69,17 @@ std::vector<PlanePair> IcpLevel::pairs(const Pose& world_from_sensor, double max
 IcpResult align(const IcpLevel& level, const Pose& start, const Pose& believed, const MotionFrame& frame,
                 const IcpSettings& settings) {
   constexpr std::size_t least_pairs = 10;
+  constexpr int settled = 5;  // iterations after which no direction changes sides, lest the pose swing for ever
   const double still = 1e-3 * level.cell();  // a step below this is no progress
   IcpResult result;
   result.world_from_sensor = start;
   for (int i = 0; i < settings.max_iterations; ++i) {
-    std::vector<PlanePair> pairs =
-        level.pairs(result.world_from_sensor, settings.max_distance, IcpLevel::Borders::left_out);
+    std::vector<PlanePair> pairs = level.pairs(result.world_from_sensor, settings.max_distance);
     if (pairs.size() < least_pairs) return result;
     weigh(pairs, 0.01 * level.cell(), level.cell());
-    result.equations = normal_equations(pairs, frame);
-    const auto [step, undetermined] =
-        solve(result.equations, settings.least_eigenvalue, frame.step(believed, result.world_from_sensor));
-    result.undetermined_directions = undetermined;
+    const NormalEquations equations = normal_equations(pairs, frame);
+    if (i < settled) result.directions = directions(equations, settings.least_resistance);
+    const Vec6 step = solve(equations, result.directions, frame.step(believed, result.world_from_sensor));
     result.world_from_sensor = frame.motion(step) * result.world_from_sensor;
     if (step.norm() < still) {
       result.converged = true;
@@ -74,25 +89,37 @@ IcpResult align(const IcpLevel& level, const Pose& start, const Pose& believed, 
   return result;
 }
 
-NormalEquations resistance(const IcpLevel& level, const Pose& world_from_sensor, const MotionFrame& frame) {
-  std::vector<PlanePair> surfels;
-  surfels.reserve(level.model().size() + level.scan().size());
+double misfit_of_open_directions(const IcpLevel& level, const IcpResult& result, const MotionFrame& frame,
+                                 const Vec6& errors) {
+  std::vector<Vec6> effects;
+  effects.reserve(level.model().size() + level.scan().size());
   const PointCloud& model = level.model().cloud;
   for (std::size_t i = 0; i < model.size(); ++i)
-    surfels.push_back({model.points[i], model.points[i], model.normals[i]});
-  const PointCloud& scan = level.scan().cloud;
+    effects.push_back(effect_along(model.normals[i], model.points[i], frame));
+  const PointCloud& scan = level.scan();
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Vec3 point = world_from_sensor * scan.points[i];
-    surfels.push_back({point, point, world_from_sensor.linear() * scan.normals[i]});
+    effects.push_back(effect_along(result.world_from_sensor.linear() * scan.normals[i],
+                                   result.world_from_sensor * scan.points[i], frame));
   }
-  return normal_equations(surfels, frame);
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> open = result.directions.open();
+  if (open.cols() == 0) return 0;
+  // What is believed is all that is known of the open directions: there, its precision alone bounds the error.
+  const Eigen::MatrixXd precision = open.transpose() * errors.cwiseAbs2().cwiseInverse().asDiagonal() * open;
+  const Eigen::MatrixXd covariance = precision.ldlt().solve(Eigen::MatrixXd::Identity(open.cols(), open.cols()));
+  std::vector<double> variances(effects.size());
+  std::transform(effects.begin(), effects.end(), variances.begin(), [&](const Vec6& effect) {
+    const Eigen::VectorXd along = open.transpose() * effect;
+    return along.dot(covariance * along);
+  });
+  const auto high = variances.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(variances.size()));
+  std::nth_element(variances.begin(), high, variances.end());
+  return std::sqrt(std::max(0.0, *high));
 }
 
 Agreement agreement(const IcpLevel& level, const Pose& world_from_sensor) {
-  const std::vector<PlanePair> pairs = level.pairs(world_from_sensor, 1.5 * level.cell(), IcpLevel::Borders::included);
   Agreement agreement;
   double on_model = 0, squares = 0;
-  for (const PlanePair& pair : pairs) {
+  for (const PlanePair& pair : level.pairs(world_from_sensor, 2 * level.cell())) {
     const double share = pair.residual() / level.cell();
     if (std::abs(share) >= 1) continue;
     on_model += 1;

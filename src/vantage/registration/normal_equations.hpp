@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -26,38 +28,50 @@ struct MotionFrame {
 struct PlanePair {
   Vec3 point;
   Vec3 target;
-  Vec3 normal;
+  Vec3 normal;       // of the model
+  Vec3 scan_normal;  // of the scan at the point
   double weight = 1;
 
   [[nodiscard]] double residual() const { return normal.dot(target - point); }
 };
 
-/// Point-to-plane least squares over pairs, divided by the sum of weights. Eigenvalues of `matrix` are then the mean
-/// squares of the cosines with which the surface resists a motion: 0 = free, about 0.3 = held well.
+/// How far a unit step of each component moves a point along a normal.
+[[nodiscard]] Vec6 effect_along(const Vec3& normal, const Vec3& point, const MotionFrame& frame);
+
+/// Point-to-plane least squares over pairs, divided by the sum of weights.
 struct NormalEquations {
   Mat6 matrix = Mat6::Zero();
   Vec6 right_side = Vec6::Zero();
+  /// As `matrix`, but from products of model and scan normals. Noise of the normals feigns resistance in `matrix` where
+  /// there is none; it is independent in model and scan and averages out here.
+  Mat6 resistance = Mat6::Zero();
   double weight = 0;
 };
 
 /// Sums over blocks of fixed size in a fixed order: the same bits for any number of threads.
 [[nodiscard]] NormalEquations normal_equations(std::span<const PlanePair> pairs, const MotionFrame& frame);
 
-/// A Gauss-Newton step that leaves alone what the data do not determine.
-struct DeterminedStep {
-  Vec6 step = Vec6::Zero();
-  int undetermined_directions = 0;
+/// Motions sorted into those that the pairs determine and those that they leave open.
+class Directions {
+ public:
+  Mat6 vectors = Mat6::Identity();  // columns: orthonormal steps
+  std::array<bool, 6> is_open{};
+
+  [[nodiscard]] int open_count() const { return static_cast<int>(std::count(is_open.begin(), is_open.end(), true)); }
+  /// Those of `vectors` that are open, or that are determined.
+  [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> open() const { return columns(true); }
+  [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> determined() const { return columns(false); }
+
+ private:
+  [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> columns(bool wanted) const;
 };
 
-/// How strongly a shape resists the motions that a smaller part of it leaves undetermined: the largest mean squared
-/// cosine under `whole` among the undetermined eigenvectors of `part`; 0 where there are none.
-[[nodiscard]] double resistance_to_undetermined(const NormalEquations& part, const NormalEquations& whole,
-                                                double least_eigenvalue);
+/// A direction is open where the surface resists the motion with a mean squared cosine below `least_resistance`.
+[[nodiscard]] Directions directions(const NormalEquations& equations, double least_resistance);
 
-/// Solves for the step. Eigenvectors with an eigenvalue below `least_eigenvalue` are undetermined: among the steps
-/// that fit the data equally, this is the one after which `from_believed + step` is smallest, rotation counting far
-/// more than translation, so that a sphere keeps its orientation and a plane also its place along itself.
-[[nodiscard]] DeterminedStep solve(const NormalEquations& equations, double least_eigenvalue,
-                                   const Vec6& from_believed);
+/// The Gauss-Newton step in the determined directions. Of all steps that fit the data equally it is the one after which
+/// `from_believed + step` is smallest, rotation counting far more than translation, so that a sphere keeps its
+/// orientation and a plane also its place along itself.
+[[nodiscard]] Vec6 solve(const NormalEquations& equations, const Directions& directions, const Vec6& from_believed);
 
 }  // namespace vantage

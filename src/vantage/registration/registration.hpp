@@ -1,10 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "vantage/core/point_cloud.hpp"
+#include "vantage/registration/free_space.hpp"
 #include "vantage/registration/fusion.hpp"
 
 namespace vantage {
@@ -14,19 +18,25 @@ namespace vantage {
 struct RegistrationOptions {
   /// Distance between neighbouring points of a scan, metres; measured from the scan where not given.
   std::optional<double> spacing;
-  /// How far points may be from where the believed pose puts them, metres; one fifth of the scan's largest extent where
-  /// not given.
+  /// How far points may be from where the believed pose puts them (three standard deviations), metres; one fifth of the
+  /// scan's largest extent where not given.
   std::optional<double> search_radius;
-  /// The finest model surface has one surfel per this many spacings.
-  double finest_cell_in_spacings = 2;
+  /// The finest resolution has one surfel per this many spacings, or coarser where the scan's noise hides the surface.
+  double finest_cell_in_spacings = 1;
   /// Iterations per level of resolution before a scan counts as not converged.
   int max_iterations = 60;
   /// Least share of the scan that must lie on the model.
-  double least_overlap = 0.25;
-  /// Largest RMS distance of the overlap to the model, in spacings.
-  double largest_residual_in_spacings = 1;
+  double least_overlap = 0.1;
+  /// Largest RMS distance of the overlap to the model, in sides of the finest surfels.
+  double largest_residual_in_cells = 0.5;
   /// A direction is undetermined where the mean squared cosine with which the surface resists a motion is below this.
-  double least_eigenvalue = 2e-3;
+  double least_resistance = 1e-3;
+  /// Standard deviation of the believed orientation about each axis, radians. Undetermined directions keep what is
+  /// believed; where that may put surfaces visibly off each other, the scan is refused as degenerate.
+  double orientation_error = radians(1);
+  /// Largest share of the scan's points that may lie in space which earlier range images show to be empty, or of the
+  /// model's points in space which this scan's range image shows to be empty.
+  double largest_share_in_free_space = 0.01;
   /// A different pose that explains this share of what the best pose explains makes the result ambiguous.
   double ambiguity = 0.9;
 
@@ -34,7 +44,15 @@ struct RegistrationOptions {
   void validate() const;
 };
 
-enum class Verdict { registered, insufficient_overlap, not_converged, large_residual, degenerate, ambiguous };
+enum class Verdict {
+  registered,
+  insufficient_overlap,  // too little of the scan lies on the model
+  not_converged,         // the pose still moved after the last iteration, or ended farther off than the search reaches
+  large_residual,        // the overlap does not fit
+  degenerate,            // the overlap leaves motions open in which the believed pose is not good enough
+  in_free_space,         // surfaces would stand where a sensor has looked through
+  ambiguous,             // a different pose fits about as well
+};
 
 [[nodiscard]] std::string_view name(Verdict verdict);
 
@@ -50,7 +68,8 @@ struct Registration {
   [[nodiscard]] bool succeeded() const { return verdict == Verdict::registered; }
 };
 
-/// The model so far as registration sees it: the fused cloud of all merged scans.
+/// The model so far as registration sees it: the fused cloud of all merged scans, and what their range images say about
+/// empty space.
 class ModelSurface {
  public:
   /// `spacing`: distance between the kept points, metres.
@@ -60,11 +79,18 @@ class ModelSurface {
   void merge(const PointCloud& scan_in_sensor, const Pose& world_from_sensor) {
     fused_.merge(scan_in_sensor, world_from_sensor);
   }
+  /// The same with the range image of which `scan_in_sensor` are the points: it also tells where nothing is.
+  void merge(const PointCloud& scan_in_sensor, RangeImage image, const Pose& world_from_sensor) {
+    fused_.merge(scan_in_sensor, world_from_sensor);
+    images_.push_back({std::move(image), world_from_sensor});
+  }
   [[nodiscard]] const PointCloud& cloud() const { return fused_.cloud(); }
   [[nodiscard]] const FusedCloud& fused() const { return fused_; }
+  [[nodiscard]] std::span<const PosedImage> images() const { return images_; }
 
  private:
   FusedCloud fused_;
+  std::vector<PosedImage> images_;
 };
 
 /// Registers a scan (points and normals in the sensor frame) against the model so far: point-to-plane ICP from the
@@ -72,6 +98,10 @@ class ModelSurface {
 /// number of threads. Throws InputError for options out of range; everything about the data is told by the verdict.
 [[nodiscard]] Registration register_scan(const ModelSurface& model, const PointCloud& scan_in_sensor,
                                          const Pose& believed_world_from_sensor,
+                                         const RegistrationOptions& options = {});
+/// The same with the range image of which `scan_in_sensor` are the points: the verdict then also rests on free space.
+[[nodiscard]] Registration register_scan(const ModelSurface& model, const PointCloud& scan_in_sensor,
+                                         const RangeImage& image, const Pose& believed_world_from_sensor,
                                          const RegistrationOptions& options = {});
 
 }  // namespace vantage

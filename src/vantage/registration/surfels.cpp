@@ -1,6 +1,7 @@
 #include "vantage/registration/surfels.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -89,46 +90,68 @@ class Clusters {
   std::unordered_map<LatticeCell, int, LatticeCellHash> first_;
 };
 
+/// Moments of several clusters about one point.
+struct Moments {
+  double count = 0;
+  Vec3 sum = Vec3::Zero();
+  Mat3 squares = Mat3::Zero();
+
+  void add(const Cluster& cluster, const Vec3& mean) {
+    count += cluster.count;
+    sum += cluster.count * mean;
+    squares += cluster.squares - cluster.sum * cluster.sum.transpose() / cluster.count;
+    squares += cluster.count * mean * mean.transpose();
+  }
+};
+
+struct Plane {
+  Vec3 normal = Vec3::Zero();
+  bool is_flat = false;
+};
+
+/// The plane through points that spread in two directions and little in the third.
+Plane fit_plane(const Moments& moments, double cell) {
+  constexpr double least_points = 5;
+  if (moments.count < least_points) return {};
+  const Vec3 mean = moments.sum / moments.count;
+  const Mat3 covariance = moments.squares / moments.count - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Mat3> solver;
+  solver.computeDirect(covariance);
+  const Vec3 spreads = solver.eigenvalues();  // ascending variances
+  // A square of one cell has a variance of cell^2/12 each way; a line or a speck has not.
+  const bool is_broad = spreads[1] > 0.03 * cell * cell;
+  return {solver.eigenvectors().col(0), is_broad && spreads[0] < 0.05 * spreads[1]};
+}
+
 }  // namespace
+
+double Surfels::flat_share() const {
+  if (is_flat.empty()) return 0;
+  return static_cast<double>(std::count(is_flat.begin(), is_flat.end(), 1)) / static_cast<double>(is_flat.size());
+}
 
 Surfels make_surfels(const PointCloud& cloud, double cell) {
   require(cell > 0 && std::isfinite(cell), "surfels: cell = ", cell, " m: must be positive");
   require(cloud.points.size() == cloud.normals.size(), "surfels: ", cloud.points.size(), " points with ",
           cloud.normals.size(), " normals; must be as many");
   const Clusters clusters(cloud, cell);
-  Surfels surfels{.cloud = {}, .on_border = std::vector<char>(clusters.size(), 0), .cell = cell};
+  Surfels surfels{.cloud = {}, .is_flat = std::vector<char>(clusters.size(), 0), .cell = cell};
   surfels.cloud.points.resize(clusters.size());
   surfels.cloud.normals.resize(clusters.size());
   parallel_for(clusters.size(), [&](std::size_t i) {
     const Cluster& cluster = clusters[i];
     const Vec3 here = clusters.mean(cluster);
-    double count = 0;
-    Vec3 sum = Vec3::Zero();
-    Mat3 squares = Mat3::Zero();
-    int cells = 0;
-    Vec3 sum_of_means = Vec3::Zero();
-    clusters.for_each_neighbor(cluster, [&](const Cluster& other) {
-      const Vec3 mean = clusters.mean(other) - here;
-      const Mat3 spread = other.squares - other.sum * other.sum.transpose() / other.count;
-      count += other.count;
-      sum += other.count * mean;
-      squares += spread + other.count * mean * mean.transpose();
-      sum_of_means += mean;
-      ++cells;
-    });
-    const Mat3 covariance = squares / count - sum * sum.transpose() / (count * count);
-    Eigen::SelfAdjointEigenSolver<Mat3> solver;
-    solver.computeDirect(covariance);
-    const Vec3 spreads = solver.eigenvalues();
-    // A plane needs extent in two directions; a row of cells has it in one only and keeps the mean normal.
-    const bool is_plane = cells >= 4 && spreads[1] > 0.01 * cell * cell && spreads[0] < 0.5 * spreads[1];
-    Vec3 normal = is_plane ? Vec3(solver.eigenvectors().col(0)) : cluster.normal.normalized();
+    Moments around;
+    clusters.for_each_neighbor(cluster, [&](const Cluster& other) { around.add(other, clusters.mean(other) - here); });
+    Moments inside;
+    inside.add(cluster, Vec3::Zero());
+    Plane plane = fit_plane(inside, cell);
+    if (!plane.is_flat) plane = fit_plane(around, cell);
+    Vec3 normal = plane.is_flat ? plane.normal : Vec3(cluster.normal.normalized());
     if (normal.dot(cluster.normal) < 0) normal = -normal;
     surfels.cloud.points[i] = here;
     surfels.cloud.normals[i] = normal;
-    // Cells on all sides balance each other; on a straight border of the known surface their mean lies half a cell off.
-    const Vec3 balance = sum_of_means / cells;
-    surfels.on_border[i] = (balance - normal * normal.dot(balance)).norm() > 0.3 * cell || cells < 4 ? 1 : 0;
+    surfels.is_flat[i] = plane.is_flat ? 1 : 0;
   });
   return surfels;
 }
