@@ -19,8 +19,9 @@ void trace(const VoxelMap& map, const SightLine& line, Marks& marks) {
   const Index3 hit = line.is_hit ? map.grid().index_of(line.hit_point()) : ray.origin_cell;
   const int steps_to_hit = steps_between(hit, ray.origin_cell);
   const bool labels_behind = line.is_hit && map.enclosure().contains(hit);
+  int steps = -1;
   visit_voxels(map.grid(), map.enclosure(), ray, line.near, [&](const Index3& index, double entered) {
-    const int steps = steps_between(index, ray.origin_cell);
+    steps = steps < 0 ? steps_between(index, ray.origin_cell) : steps + 1;
     const bool before_end = line.is_hit ? steps < steps_to_hit : entered <= line.end;
     if (!before_end && !labels_behind) return false;
     const Index3 local = index - map.enclosure().min;

@@ -69,10 +69,16 @@ void VoxelMap::set_label(const Index3& index, Label label) {
   if (was_occupied || label == Label::occupied) surface_slot(at) = {};
 }
 
-bool VoxelMap::add_point(const Index3& index, const Vec3& normal_in_world, double quality) {
-  const bool is_new = label(index) != Label::occupied;
+VoxelMap::Occupied VoxelMap::occupy(const Index3& index) {
+  const Index3 at = local(index);
+  const bool is_new = (occupied_.words[layout_.word(at)] & BitLayout::bit(at)) == 0;
   if (is_new) set_label(index, Label::occupied);
-  if (!normal_in_world.isZero(0)) surface_slot(local(index)).add(normal_in_world, quality);
+  return {surface_slot(at), is_new};
+}
+
+bool VoxelMap::add_point(const Index3& index, const Vec3& normal_in_world, double quality) {
+  const auto [surface, is_new] = occupy(index);
+  if (!normal_in_world.isZero(0)) surface.add(normal_in_world, quality);
   return is_new;
 }
 

@@ -73,6 +73,12 @@ class VoxelMap {
   /// The voxel must lie in the enclosure. Leaving `occupied` forgets the voxel's surface; a voxel that becomes occupied
   /// has none yet.
   void set_label(const Index3& index, Label label);
+  /// Marks the voxel occupied and gives its surface, valid until the next voxel becomes occupied.
+  struct Occupied {
+    SurfaceVoxel& surface;
+    bool is_new;
+  };
+  Occupied occupy(const Index3& index);
   /// Marks the voxel occupied and adds a measured point to it. A zero normal adds nothing to the normal and quality.
   /// Returns true where the voxel was not occupied before.
   bool add_point(const Index3& index, const Vec3& normal_in_world, double quality);

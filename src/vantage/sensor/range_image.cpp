@@ -29,11 +29,11 @@ void RangeImage::validate() const {
       static_cast<std::size_t>(camera.resolution.columns) * static_cast<std::size_t>(camera.resolution.rows);
   require(depth.size() == expected, "range image: ", depth.size(), " depths for ", camera.resolution.columns, "x",
           camera.resolution.rows, " pixels; must be ", expected);
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    require(depth[i] >= 0, "range image: depth ", depth[i], " at pixel (",
-            i % static_cast<std::size_t>(camera.resolution.columns), ", ",
-            i / static_cast<std::size_t>(camera.resolution.columns), "): must be 0 (unknown), positive or infinite");
-  }
+  const auto bad = std::find_if(depth.begin(), depth.end(), [](float value) { return !(value >= 0); });
+  if (bad == depth.end()) return;
+  const auto pixel = bad - depth.begin();
+  throw InputError(concat("range image: depth ", *bad, " at pixel (", pixel % camera.resolution.columns, ", ",
+                          pixel / camera.resolution.columns, "): must be 0 (unknown), positive or infinite"));
 }
 
 void RangeNormalOptions::validate() const {

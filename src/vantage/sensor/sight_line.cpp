@@ -1,7 +1,5 @@
 #include "vantage/sensor/sight_line.hpp"
 
-#include <algorithm>
-
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -10,7 +8,7 @@ namespace {
 void set_surface(SightLine& line, const Vec3& normal, const Vec3& axis, QualityReference reference) {
   line.normal = normal;
   const Vec3 towards = reference == QualityReference::axis ? axis : Vec3(line.direction.normalized());
-  line.quality = std::max(0.0, -normal.dot(towards));
+  line.quality = point_quality(normal, towards);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct SightLine {
 
 /// What the quality of a point is measured against (spec, section 1).
 enum class QualityReference { axis, ray };
+
+/// Cosine between a point's normal and the direction back along `towards` (the viewing axis or the ray, a unit vector);
+/// 0 where the surface faces away.
+[[nodiscard]] inline double point_quality(const Vec3& normal, const Vec3& towards) {
+  return std::max(0.0, -normal.dot(towards));
+}
 
 /// A scan by a sensor without a pinhole (line scanners): points in the sensor frame with the origins of their sight
 /// lines.

@@ -1,0 +1,199 @@
+#include "vantage/map/integrator.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+#include "vantage/core/parallel.hpp"
+#include "vantage/map/voxel_ray.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr int block_side = 4;  // divides 64, so that a block's row lies in one word
+
+/// Marks what a scan empties and occludes in blocks of voxels, straight in the words of the map.
+class BlockCarver {
+ public:
+  BlockCarver(VoxelMap& map, const RangeImage& image, const View& view, const StepCounts& steps,
+              const ScanLimits& limits, const LatticeProjection& projection)
+      : map_(map),
+        camera_(image.camera),
+        rays_(image.camera.rays()),
+        rotation_(view.world_from_sensor.linear()),
+        eye_(view.position()),
+        steps_(steps),
+        limits_(limits),
+        projection_(projection) {}
+
+  /// All blocks of the layer that begins at local index z. Layers may run at the same time.
+  void carve_layer(int z) {
+    const Index3& size = map_.layout().size;
+    for (int y = 0; y < size.y(); y += block_side) {
+      for (int x = 0; x < size.x(); x += block_side) carve_block({x, y, z});
+    }
+  }
+
+ private:
+  enum class Fate { unchanged, emptied, occluded };
+
+  [[nodiscard]] std::uint64_t open(std::size_t word) const {
+    return ~(map_.occupied().words[word] | map_.empty().words[word]);
+  }
+  [[nodiscard]] std::uint64_t unmarked(std::size_t word) const { return open(word) & ~map_.hidden().words[word]; }
+  void carve_block(const Index3& low) {
+    const Index3 high = (low + Index3::Constant(block_side)).cwiseMin(map_.layout().size);
+    const auto width = static_cast<unsigned>(high.x() - low.x());
+    const std::uint64_t columns = ((std::uint64_t{1} << width) - 1) << (static_cast<unsigned>(low.x()) & 63U);
+    const auto for_each_word = [&](const auto& body) {
+      for (int z = low.z(); z < high.z(); ++z) {
+        for (int y = low.y(); y < high.y(); ++y) body(map_.layout().word({low.x(), y, z}), y, z);
+      }
+    };
+    std::uint64_t any_open = 0;
+    std::uint64_t any_unmarked = 0;
+    for_each_word([&](std::size_t word, int, int) {
+      any_open |= open(word) & columns;
+      any_unmarked |= unmarked(word) & columns;
+    });
+    if (any_open == 0) return;
+    const LatticeProjection::Footprint footprint = projection_.footprint(low, high);
+    if (footprint.kind == LatticeProjection::Footprint::Kind::none) return;
+    const bool dense = projection_.is_dense(footprint);
+    const LimitRange range = limits_.range(footprint.pixels);
+    const auto [least, most] = steps_.range(low, high);
+    if (least >= range.most_emptied) {  // nothing is emptied
+      if (any_unmarked == 0 || most <= range.least_occluded) return;
+      if (dense && least > range.most_occluded) {
+        for_each_word([&](std::size_t word, int, int) { map_.carve_word(word, 0, columns); });
+        return;
+      }
+    } else if (dense && most < range.least_emptied) {
+      for_each_word([&](std::size_t word, int, int) { map_.carve_word(word, columns, 0); });
+      return;
+    }
+    for_each_word([&](std::size_t word, int y, int z) {
+      std::uint64_t emptied = 0;
+      std::uint64_t occluded = 0;
+      for (std::uint64_t bits = open(word) & columns; bits != 0; bits &= bits - 1) {
+        const std::uint64_t bit = bits & (~bits + 1);
+        const int x = (low.x() & ~63) + std::countr_zero(bits);
+        const Fate fate = fate_of({x, y, z}, (unmarked(word) & bit) != 0, dense);
+        if (fate == Fate::emptied) emptied |= bit;
+        if (fate == Fate::occluded) occluded |= bit;
+      }
+      map_.carve_word(word, emptied, occluded);
+    });
+  }
+
+  [[nodiscard]] Fate fate_of(const Index3& voxel, bool is_unmarked, bool dense) const {
+    const int steps = steps_.of(voxel);
+    bool occluded = false;
+    if (dense) {
+      const PixelLimits limits = limits_of_pixel_at_center(voxel);
+      if (steps < limits.emptied_below) return Fate::emptied;
+      occluded = steps > limits.occluded_above;
+    }
+    const LatticeProjection::Footprint footprint = projection_.footprint(voxel, voxel + Index3::Ones());
+    if (footprint.kind == LatticeProjection::Footprint::Kind::none) return Fate::unchanged;
+    const LimitRange range = limits_.range(footprint.pixels);
+    const auto empties = [steps](const PixelLimits& limits) { return steps < limits.emptied_below; };
+    if (steps < range.most_emptied && any_pixel(voxel, footprint.pixels, empties)) return Fate::emptied;
+    if (!is_unmarked) return Fate::unchanged;
+    const auto occludes = [steps](const PixelLimits& limits) { return steps > limits.occluded_above; };
+    occluded = occluded || (steps > range.least_occluded && any_pixel(voxel, footprint.pixels, occludes));
+    return occluded ? Fate::occluded : Fate::unchanged;
+  }
+
+  [[nodiscard]] PixelLimits limits_of_pixel_at_center(const Index3& voxel) const {
+    const auto [u, v, w] = projection_.corner(voxel.x(), voxel.y(), voxel.z()) +
+                           projection_.corner(voxel.x() + 1, voxel.y() + 1, voxel.z() + 1);
+    const double inverse = 1 / w;
+    return limits_.at(static_cast<int>(u * inverse + 0.5), static_cast<int>(v * inverse + 0.5));
+  }
+
+  /// Does the ray of any of the pixels whose limits are `wanted` pass the voxel?
+  template <class Wanted>
+  [[nodiscard]] bool any_pixel(const Index3& voxel, const PixelRect& pixels, const Wanted& wanted) const {
+    const Index3 in_scene = voxel + map_.enclosure().min;
+    const Index3 eye_in_scene = steps_.eye + map_.enclosure().min;
+    for (int row = pixels.top; row <= pixels.bottom; ++row) {
+      const PixelLimits* const limits = limits_.row_of(row);
+      for (int column = pixels.left; column <= pixels.right; ++column) {
+        if (!wanted(limits[column])) continue;
+        const LatticeRay ray(eye_, eye_in_scene, ray_direction(rotation_, rays_.x(column), rays_.y(row)));
+        if (passes_voxel(map_.grid(), ray, in_scene, camera_.min_depth, LatticeRay::never)) return true;
+      }
+    }
+    return false;
+  }
+
+  VoxelMap& map_;
+  const RangeCamera& camera_;
+  RayGrid rays_;
+  Mat3 rotation_;
+  Vec3 eye_;
+  const StepCounts& steps_;
+  const ScanLimits& limits_;
+  const LatticeProjection& projection_;
+};
+
+IntegrationReport add_points(VoxelMap& map, const ScanLimits& limits, const RangeImage& image,
+                             std::span<const Vec3f> normals_in_sensor, const View& view, QualityReference reference) {
+  const RayGrid rays = image.camera.rays();
+  const Mat3 rotation = view.world_from_sensor.linear();
+  const int columns = image.camera.resolution.columns;
+  IntegrationReport report;
+  for (const std::vector<ScanPoint>& band : limits.points()) {
+    report.points_in_enclosure += static_cast<std::int64_t>(band.size());
+    for (const ScanPoint& point : band) {
+      const auto [surface, is_new] = map.occupy(point.voxel + map.enclosure().min);
+      if (is_new) ++report.new_occupied;
+      if (normals_in_sensor.empty()) continue;
+      const Vec3 normal_in_sensor = normals_in_sensor[static_cast<std::size_t>(point.pixel)].cast<double>();
+      if (normal_in_sensor.isZero(0)) continue;
+      const Vec3 normal = rotation * normal_in_sensor;
+      if (normal.isZero(0)) continue;
+      const Vec3 towards =
+          reference == QualityReference::axis
+              ? view.axis()
+              : Vec3(
+                    ray_direction(rotation, rays.x(point.pixel % columns), rays.y(point.pixel / columns)).normalized());
+      surface.add(normal, point_quality(normal, towards));
+    }
+  }
+  return report;
+}
+
+}  // namespace
+
+bool rays_are_faster(const VoxelMap& map, const RangeCamera& camera, const View& view) {
+  const double depth_of_center = view.axis().dot(map.enclosure_center() - view.position());
+  if (depth_of_center > LatticeProjection::dense_depth(map.grid(), camera)) return true;
+  const double widest = std::max({-camera.left, camera.right, -camera.top, camera.bottom});
+  const double reach = (2 + widest) * map.grid().length;
+  return map.grid().box(map.enclosure()).exteriorDistance(view.position()) < reach;
+}
+
+IntegrationReport Integrator::integrate(VoxelMap& map, const RangeImage& image,
+                                        std::span<const Vec3f> normals_in_sensor, const View& view,
+                                        QualityReference reference) {
+  image.validate();
+  require(normals_in_sensor.empty() || normals_in_sensor.size() == image.depth.size(),
+          "integrate: ", normals_in_sensor.size(), " normals for ", image.depth.size(), " pixels");
+  const StepCounts steps(map.layout().size, map.grid().index_of(view.position()) - map.enclosure().min);
+  if (steps.span > StepCounts::largest_span || rays_are_faster(map, image.camera, view)) {
+    return integrate_exactly(map, sight_lines(image, normals_in_sensor, view, reference));
+  }
+  projection_.prepare(map.grid(), map.enclosure(), image.camera, view);
+  limits_.prepare(map, image, view, steps);
+  const IntegrationReport report = add_points(map, limits_, image, normals_in_sensor, view, reference);
+  BlockCarver carver(map, image, view, steps, limits_, projection_);
+  const int layers = (map.layout().size.z() + block_side - 1) / block_side;
+  parallel_for(static_cast<std::size_t>(layers),
+               [&](std::size_t layer) { carver.carve_layer(block_side * static_cast<int>(layer)); });
+  map.update_occplane();
+  return report;
+}
+
+}  // namespace vantage
