@@ -4,3 +4,13 @@ find_package(benchmark REQUIRED)
 file(GLOB vantage_benchmark_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmarks/*.cpp)
 add_executable(vantage_benchmarks ${vantage_benchmark_sources})
 target_link_libraries(vantage_benchmarks PRIVATE vantage_core vantage_build_settings benchmark::benchmark)
+
+# Other programs' answers to the same questions, as more rows of the same run.
+option(VANTAGE_BENCHMARKS_OTHERS "Benchmark OctoMap, OpenVDB and Embree as well" OFF)
+if(VANTAGE_BENCHMARKS_OTHERS)
+  file(GLOB vantage_other_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmarks/others/*.cpp)
+  find_package(octomap REQUIRED)
+  target_sources(vantage_benchmarks PRIVATE ${vantage_other_sources})
+  target_include_directories(vantage_benchmarks PRIVATE ${PROJECT_SOURCE_DIR}/benchmarks)
+  target_link_libraries(vantage_benchmarks PRIVATE octomap octomath)
+endif()
