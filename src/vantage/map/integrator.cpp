@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
@@ -11,6 +12,59 @@ namespace vantage {
 namespace {
 
 constexpr int block_side = 4;  // divides 64, so that a block's row lies in one word
+
+/// Where the pixels see each voxel of a block that lies in front of the camera, from the corners that voxels share.
+class BlockPixels {
+ public:
+  BlockPixels(const LatticeProjection& projection, const Index3& low, const Index3& size, double margin)
+      : projection_(projection), margin_(margin) {
+    std::array<double, corners> columns{}, rows{};
+    std::size_t i = 0;
+    for (int z = 0; z <= block_side; ++z) {
+      for (int y = 0; y <= block_side; ++y) {
+        for (int x = 0; x <= block_side; ++x, ++i) {
+          const Index3 at = (low + Index3(x, y, z)).cwiseMin(size);
+          const auto [u, v, w] = projection.corner(at.x(), at.y(), at.z());
+          columns[i] = u / w;
+          rows[i] = v / w;
+        }
+      }
+    }
+    columns_ = ranges(columns);
+    rows_ = ranges(rows);
+  }
+
+  /// The voxel at `offset` from the block's first.
+  [[nodiscard]] PixelRect of(const Index3& offset) const {
+    const auto i = static_cast<std::size_t>((offset.z() * side + offset.y()) * side + offset.x());
+    return projection_.pixels_within(columns_.least[i], columns_.most[i], rows_.least[i], rows_.most[i], margin_);
+  }
+
+ private:
+  static constexpr int side = block_side + 1;
+  static constexpr std::size_t corners = side * side * side;
+  struct Ranges {
+    std::array<double, corners> least, most;
+  };
+
+  /// Extremes over the eight corners of each voxel: over pairs along x, pairs of pairs along y, and so on.
+  [[nodiscard]] static Ranges ranges(const std::array<double, corners>& values) {
+    Ranges range{values, values};
+    std::size_t reach = 0;
+    for (const std::size_t next : {1, side, side * side}) {
+      reach += next;
+      for (std::size_t i = 0; i + reach < corners; ++i) {
+        range.least[i] = std::min(range.least[i], range.least[i + next]);
+        range.most[i] = std::max(range.most[i], range.most[i + next]);
+      }
+    }
+    return range;
+  }
+
+  const LatticeProjection& projection_;
+  double margin_;
+  Ranges columns_, rows_;
+};
 
 /// Marks what a scan empties and occludes in blocks of voxels, straight in the words of the map.
 class BlockCarver {
@@ -72,13 +126,20 @@ class BlockCarver {
       for_each_word([&](std::size_t word, int, int) { map_.carve_word(word, columns, 0); });
       return;
     }
+    std::optional<BlockPixels> pixels;
+    if (footprint.kind == LatticeProjection::Footprint::Kind::bounded) {
+      pixels.emplace(projection_, low, map_.layout().size, footprint.margin);
+    }
+    const auto pixels_of = [&](const Index3& voxel) {
+      return pixels ? pixels->of(voxel - low) : projection_.footprint(voxel, voxel + Index3::Ones()).pixels;
+    };
     for_each_word([&](std::size_t word, int y, int z) {
       std::uint64_t emptied = 0;
       std::uint64_t occluded = 0;
       for (std::uint64_t bits = open(word) & columns; bits != 0; bits &= bits - 1) {
         const std::uint64_t bit = bits & (~bits + 1);
-        const int x = (low.x() & ~63) + std::countr_zero(bits);
-        const Fate fate = fate_of({x, y, z}, (unmarked(word) & bit) != 0, dense);
+        const Index3 voxel((low.x() & ~63) + std::countr_zero(bits), y, z);
+        const Fate fate = fate_of(voxel, (unmarked(word) & bit) != 0, dense, pixels_of);
         if (fate == Fate::emptied) emptied |= bit;
         if (fate == Fate::occluded) occluded |= bit;
       }
@@ -86,7 +147,8 @@ class BlockCarver {
     });
   }
 
-  [[nodiscard]] Fate fate_of(const Index3& voxel, bool is_unmarked, bool dense) const {
+  template <class PixelsOf>
+  [[nodiscard]] Fate fate_of(const Index3& voxel, bool is_unmarked, bool dense, const PixelsOf& pixels_of) const {
     const int steps = steps_.of(voxel);
     bool occluded = false;
     if (dense) {
@@ -94,14 +156,14 @@ class BlockCarver {
       if (steps < limits.emptied_below) return Fate::emptied;
       occluded = steps > limits.occluded_above;
     }
-    const LatticeProjection::Footprint footprint = projection_.footprint(voxel, voxel + Index3::Ones());
-    if (footprint.kind == LatticeProjection::Footprint::Kind::none) return Fate::unchanged;
-    const LimitRange range = limits_.range(footprint.pixels);
+    const PixelRect pixels = pixels_of(voxel);
+    if (pixels.is_empty()) return Fate::unchanged;
+    const LimitRange range = limits_.range(pixels);
     const auto empties = [steps](const PixelLimits& limits) { return steps < limits.emptied_below; };
-    if (steps < range.most_emptied && any_pixel(voxel, footprint.pixels, empties)) return Fate::emptied;
+    if (steps < range.most_emptied && any_pixel(voxel, pixels, empties)) return Fate::emptied;
     if (!is_unmarked) return Fate::unchanged;
     const auto occludes = [steps](const PixelLimits& limits) { return steps > limits.occluded_above; };
-    occluded = occluded || (steps > range.least_occluded && any_pixel(voxel, footprint.pixels, occludes));
+    occluded = occluded || (steps > range.least_occluded && any_pixel(voxel, pixels, occludes));
     return occluded ? Fate::occluded : Fate::unchanged;
   }
 

@@ -60,6 +60,11 @@ void LatticeProjection::prepare(const Grid& grid, const IndexBox& box, const Ran
   dense_depth_ = dense_depth(grid, camera) * (1 - 4 * slack_ / grid.length);
 }
 
+PixelRect LatticeProjection::pixels_within(double left, double right, double top, double bottom, double margin) const {
+  return {first_from(left - margin, resolution_.columns), last_to(right + margin, resolution_.columns),
+          first_from(top - margin, resolution_.rows), last_to(bottom + margin, resolution_.rows)};
+}
+
 LatticeProjection::Footprint LatticeProjection::footprint(const Index3& low, const Index3& high) const {
   const double last_column = resolution_.columns - 1;
   const double last_row = resolution_.rows - 1;
@@ -100,8 +105,8 @@ LatticeProjection::Footprint LatticeProjection::footprint(const Index3& low, con
   }
   footprint.kind = Footprint::Kind::bounded;
   footprint.is_in_image = left >= 0 && top >= 0 && right <= last_column && bottom <= last_row;
-  footprint.pixels = {first_from(left - margin, resolution_.columns), last_to(right + margin, resolution_.columns),
-                      first_from(top - margin, resolution_.rows), last_to(bottom + margin, resolution_.rows)};
+  footprint.margin = margin;
+  footprint.pixels = pixels_within(left, right, top, bottom, margin);
   if (footprint.pixels.is_empty()) footprint.kind = Footprint::Kind::none;
   return footprint;
 }

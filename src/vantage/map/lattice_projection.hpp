@@ -40,6 +40,7 @@ class LatticeProjection {
     PixelRect pixels;          // within the image
     bool is_in_image = false;  // the border of the image does not cut it
     double min_depth = 0, max_depth = 0;
+    double margin = 0;  // by which `pixels` are wider than the projected corners, for rounding
   };
 
   /// Up to this depth the ray nearest to a voxel's centre, if within the image, passes the voxel.
@@ -50,6 +51,8 @@ class LatticeProjection {
 
   /// Corner of the lattice, local to the box: 0 .. size on each axis.
   [[nodiscard]] Homogeneous corner(int x, int y, int z) const { return at(0, x) + (at(1, y) + at(2, z)); }
+  /// The pixels of the image between these coordinates, widened by `margin`.
+  [[nodiscard]] PixelRect pixels_within(double left, double right, double top, double bottom, double margin) const;
   /// The block of voxels from local index `low` up to but without `high`.
   [[nodiscard]] Footprint footprint(const Index3& low, const Index3& high) const;
   /// True where the ray nearest to the centre of any voxel of the block lies in the image and passes the voxel, and the

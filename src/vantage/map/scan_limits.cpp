@@ -42,6 +42,7 @@ class RowReader {
     const Vec3 eye = view.position();
     // A ray that meets nothing need not be followed beyond the enclosure.
     const double beyond = (space.center() - eye).norm() + 0.5 * space.diagonal().norm() + map.grid().length;
+    far_limit_cuts_ = image.camera.max_depth < beyond;
     far_ = std::min(image.camera.max_depth, beyond);
     const double largest_coordinate =
         std::max({space.min().cwiseAbs().maxCoeff(), space.max().cwiseAbs().maxCoeff(), eye.cwiseAbs().maxCoeff()});
@@ -60,9 +61,11 @@ class RowReader {
   void read(int row, std::span<PixelLimits> limits, std::vector<ScanPoint>& points) {
     const std::span<const float> depth =
         std::span(image_.depth).subspan(static_cast<std::size_t>(row) * limits.size(), limits.size());
-    find_cells(row, depth);
-    set_limits(depth, limits);
-    for (std::size_t i = 0; i < limits.size(); ++i) {
+    for (std::size_t i = 0; i < limits.size(); ++i) limits[i] = limits_without_end(depth[i]);
+    const auto [first, last] = columns_with_ends(depth);
+    find_cells(row, depth, first, last);
+    set_limits(depth, limits, first, last);
+    for (std::size_t i = first; i < last; ++i) {
       if (needs_care_[i] == 0) continue;
       const int column = static_cast<int>(i);
       Index3 cell(cells_[0][i], cells_[1][i], cells_[2][i]);
@@ -97,11 +100,23 @@ class RowReader {
     return {steps, is_inside(cell) ? steps : nothing_occluded()};
   }
 
+  /// What a pixel says whose ray has no end in reach: it empties all of its voxels, or is unknown.
+  [[nodiscard]] PixelLimits limits_without_end(float depth) const {
+    return {depth > 0 ? nothing_occluded() : std::int16_t{0}, nothing_occluded()};
+  }
+
+  /// The columns from the first to the last ray that ends, `last` excluded: at a hit, or at the far limit.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> columns_with_ends(std::span<const float> depth) const {
+    if (far_limit_cuts_) return {0, depth.size()};
+    const auto first = std::find_if(depth.begin(), depth.end(), RangeImage::is_hit);
+    const auto last = std::find_if(depth.rbegin(), std::make_reverse_iterator(first), RangeImage::is_hit).base();
+    return {static_cast<std::size_t>(first - depth.begin()), static_cast<std::size_t>(last - depth.begin())};
+  }
+
   /// The voxels, local to the enclosure, in which the rays of a row end, and how far (in voxels) from a lattice plane.
-  void find_cells(int row, std::span<const float> depth) {
+  void find_cells(int row, std::span<const float> depth, std::size_t first, std::size_t last) {
     const Grid& grid = map_.grid();
-    const std::size_t columns = depth.size();
-    for (std::size_t i = 0; i < columns; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       end_depth_[i] = RangeImage::is_hit(depth[i]) ? static_cast<double>(depth[i]) : far_;
       certainty_[i] = 1;
     }
@@ -116,7 +131,7 @@ class RowReader {
       const double* const end_depth = end_depth_.data();
       double* const certainty = certainty_.data();
       std::int32_t* const cells = cells_[static_cast<std::size_t>(a)].data();
-      for (std::size_t i = 0; i < columns; ++i) {
+      for (std::size_t i = first; i < last; ++i) {
         const double coordinate = origin + end_depth[i] * ((sideways[i] + down) + forward);
         const double place = (coordinate - first_plane) * per_length + cell_offset;
         const double clamped_place = std::min(std::max(place, 0.0), 2.0 * cell_offset);
@@ -128,14 +143,14 @@ class RowReader {
     }
   }
 
-  void set_limits(std::span<const float> depth, std::span<PixelLimits> limits) {
+  void set_limits(std::span<const float> depth, std::span<PixelLimits> limits, std::size_t first, std::size_t last) {
     const auto [eye_x, eye_y, eye_z] = std::array{steps_.eye.x(), steps_.eye.y(), steps_.eye.z()};
     const auto size = map_.layout().size.cast<std::uint32_t>().eval();
     const std::int32_t* const x = cells_[0].data();
     const std::int32_t* const y = cells_[1].data();
     const std::int32_t* const z = cells_[2].data();
     const int most = steps_.span + 1;
-    for (std::size_t i = 0; i < depth.size(); ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       const bool is_known = depth[i] > 0;
       const bool is_hit = RangeImage::is_hit(depth[i]);
       const int steps = std::abs(x[i] - eye_x) + std::abs(y[i] - eye_y) + std::abs(z[i] - eye_z) - steps_.first;
@@ -155,7 +170,8 @@ class RowReader {
   const View& view_;
   const StepCounts& steps_;
   RayGrid rays_;
-  double far_ = 0;
+  bool far_limit_cuts_ = false;
+  double far_ = 0;  // depth at which rays without a return end
   double least_certainty_ = 0;
   std::array<std::vector<double>, 3> sideways_;  // per axis and column: the part of the direction along the rows
   std::array<std::vector<std::int32_t>, 3> cells_;
