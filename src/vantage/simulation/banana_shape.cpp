@@ -9,7 +9,7 @@ namespace {
 
 constexpr int segments = 60;
 constexpr double arc_radius = 0.62;  // of the middle line, in units of its length
-constexpr double half_width = 0.094;
+constexpr double half_width = 0.0885;
 
 /// Share of the full thickness along the middle line: tip, body, neck, stem.
 std::vector<OutlinePoint> thickness_along_length() {

@@ -115,7 +115,7 @@ struct HandlePath {
   Vec3 top, bottom;  // where it leaves the wall and where it comes back
 
   [[nodiscard]] Vec3 at(double s) const {
-    constexpr double reach = 0.33;
+    constexpr double reach = 0.31;
     constexpr double exponent = 2 / 2.6;
     const auto power = [](double value) { return std::copysign(std::pow(std::abs(value), exponent), value); };
     const double up = power(std::cos(std::numbers::pi * s));

@@ -18,8 +18,8 @@ struct SurfaceHit {
 };
 
 /// A noise-free range camera in front of a triangle mesh. Embree finds the triangle; which triangle exactly and how far
-/// away is then decided in double precision, so that depths do not depend on the instructions of the processor. Rays do
-/// not leak through shared edges. Safe to use from several threads.
+/// away is then decided in double precision, so that depths do not depend on the processor's instructions (it needs
+/// AVX2 for the very same silhouettes). Rays do not leak through shared edges. Safe to use from several threads.
 class RangeScanner {
  public:
   /// Keeps the mesh. Throws InputError as check_mesh does.

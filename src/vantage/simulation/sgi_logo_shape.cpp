@@ -9,7 +9,7 @@ namespace {
 
 // Lengths in units of half the cube that the middle line of the tubes keeps to.
 constexpr double inner = 0.56;  // where the tube runs inside a face instead of along the cube's edge
-constexpr double tube_radius = 0.196;
+constexpr double tube_radius = 0.199;
 constexpr double bend_radius = 1.05 * tube_radius;
 constexpr int segments = 32;  // around the tube; a multiple of 4, so that quarter turns of the section fit
 constexpr int bend_steps = 10;
@@ -62,9 +62,10 @@ std::vector<Section> sections() {
   return result;
 }
 
-/// Turns the cube's diagonal (-1, 1, 1) up.
+/// Turns the cube's diagonal (-1, 1, 1) up, and about it to where the bounding box is smallest.
 Mat3 on_a_corner() {
-  return Eigen::Quaterniond::FromTwoVectors(Vec3(-1, 1, 1).normalized(), Vec3::UnitZ()).toRotationMatrix();
+  const auto upright = Eigen::Quaterniond::FromTwoVectors(Vec3(-1, 1, 1).normalized(), Vec3::UnitZ());
+  return (Eigen::AngleAxisd(std::numbers::pi / 12, Vec3::UnitZ()) * upright).toRotationMatrix();
 }
 
 }  // namespace
