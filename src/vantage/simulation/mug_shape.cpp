@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-// Lengths in units of the mug's height.
-constexpr double height = 1.0;
+// Lengths in units of 0.1 m.
+constexpr double height = 0.97;
 constexpr double base_radius = 0.43;
 constexpr double belly = 0.1;  // how far the wall swells beyond the base and the rim
 constexpr double wall = 0.045;
@@ -115,7 +115,7 @@ struct HandlePath {
   Vec3 top, bottom;  // where it leaves the wall and where it comes back
 
   [[nodiscard]] Vec3 at(double s) const {
-    constexpr double reach = 0.31;
+    constexpr double reach = 0.305;
     constexpr double exponent = 2 / 2.6;
     const auto power = [](double value) { return std::copysign(std::pow(std::abs(value), exponent), value); };
     const double up = power(std::cos(std::numbers::pi * s));
@@ -172,7 +172,7 @@ void add_handle(SurfaceBuilder& surface, const Ring& start, const Ring& end) {
 // are the borders of these holes, so that the mug is one closed surface without hidden parts.
 TriangleMesh mug_shape() {
   SurfaceBuilder surface;
-  std::vector<OutlinePoint> base{{base_radius - 0.14, 0.03}, {base_radius - 0.11, 0}};
+  std::vector<OutlinePoint> base{{base_radius - 0.14, 0.04}, {base_radius - 0.11, 0}};
   const double wall_start = outer_radius(foot);
   const auto rounding = arc({wall_start - foot, foot}, foot, -std::numbers::pi / 2, 0, 8);
   base.insert(base.end(), rounding.begin(), rounding.end() - 1);  // the wall starts with the last point
