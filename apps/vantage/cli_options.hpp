@@ -1,60 +1,49 @@
 #pragma once
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <string>
-#include <type_traits>
+#include <utility>
+#include <vector>
 
-#include "vantage/core/error.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/io/atomic_file.hpp"
+#include "vantage/io/options.hpp"
 
 namespace vantage::app {
 
-/// Adds every described field of an options struct to a subcommand as `--name`, with its default, unit and meaning in
-/// the help. The struct must outlive the parsing.
-class OptionAdder {
- public:
-  explicit OptionAdder(CLI::App& command) : command_(command) {}
-
-  template <class T>
-  void operator()(const std::string& name, T& member, const std::string& unit, const std::string& meaning) {
-    const std::string text = unit.empty() ? meaning : fmt::format("{} [{}]", meaning, unit);
-    if constexpr (std::is_same_v<T, bool>) {
-      command_.add_flag(fmt::format("--{0},!--no-{0}", name), member, text);
-    } else if constexpr (requires { T::RowsAtCompileTime; }) {
-      add_vector(name, member, text);
+/// Adds the options as `--name VALUE`, flags as `--name` and `--no-name`, with defaults, units and meanings in the
+/// help, and `--config FILE` for all of them at once: what stands on the command line wins over the file. The options
+/// that the fields belong to must outlive the parsing; a bad value is an InputError that names the option. `also_known`
+/// are names of other commands' options that a common configuration file may hold.
+inline void add_options(CLI::App& command, const std::vector<OptionField>& fields,
+                        const std::vector<std::string>& also_known = {}) {
+  // CLI11 runs callbacks in the order in which options were added, so the file comes first.
+  command.add_option_function<std::string>(
+      "--config",
+      [fields, also_known](const std::string& path) {
+        set_options_from_yaml(fields, read_file(path), path, also_known);
+      },
+      "YAML file with options; see `vantage config`");
+  for (const OptionField& field : fields) {
+    const std::string help = field.unit.empty() ? field.meaning : fmt::format("{} [{}]", field.meaning, field.unit);
+    if (field.kind == OptionField::Kind::flag) {
+      command.add_flag_function(
+          fmt::format("--{0},!--no-{0}", field.name),
+          [field](std::int64_t count) { set_option(field, count > 0 ? "true" : "false", "--" + field.name); }, help);
     } else {
-      command_.add_option("--" + name, member, text)->capture_default_str();
+      command
+          .add_option_function<std::string>(
+              "--" + field.name, [field](const std::string& text) { set_option(field, text, "--" + field.name); }, help)
+          ->default_str(field.text());
     }
   }
+}
 
- private:
-  template <class Vector>
-  void add_vector(const std::string& name, Vector& member, const std::string& text) {
-    std::string value;
-    for (int i = 0; i < member.size(); ++i) value += fmt::format("{}{}", i == 0 ? "" : ",", member[i]);
-    command_
-        .add_option_function<std::string>(
-            "--" + name,
-            [name, &member](const std::string& given) {
-              const std::vector<double> numbers =
-                  numbers_from_text(name, given, static_cast<std::size_t>(member.size()));
-              for (int i = 0; i < member.size(); ++i) {
-                member[i] = static_cast<typename Vector::Scalar>(numbers[static_cast<std::size_t>(i)]);
-                require(static_cast<double>(member[i]) == numbers[static_cast<std::size_t>(i)], name, ": '", given,
-                        "' must be whole numbers");
-              }
-            },
-            text)
-        ->default_str(value);
-  }
-
-  CLI::App& command_;
-};
-
+/// The same for a struct with a describe().
 template <class Options>
 void add_options(CLI::App& command, Options& options) {
-  describe(options, OptionAdder(command));
+  add_options(command, option_fields(options));
 }
 
 }  // namespace vantage::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/sensor/range_image.hpp"
+
+namespace vantage {
+
+/// Pinhole intrinsics in pixels; pixel centres lie at whole numbers.
+struct Intrinsics {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  /// Of the images they belong to, where the file says so.
+  std::optional<Resolution> resolution;
+  /// Lens distortion in ROS's order k1 k2 p1 p2 k3 (plumb_bob) and k4 k5 k6 (rational_polynomial); empty: none.
+  std::vector<double> distortion;
+
+  /// Throws InputError naming the field.
+  void validate() const;
+  [[nodiscard]] bool is_distorted() const;
+};
+
+/// Intrinsics by the ending of the name: `.txt` 3x3 numbers row by row; `.yaml` or `.yml` ROS camera_info (calibration
+/// file or printed message); `.json` Open3D's PinholeCameraIntrinsic. Throws InputError naming the file, the field and
+/// what would be right.
+[[nodiscard]] Intrinsics read_intrinsics(const std::filesystem::path& path);
+/// The same from memory; `name` stands in errors.
+[[nodiscard]] Intrinsics parse_intrinsics_text(std::string_view bytes, const std::string& name);
+[[nodiscard]] Intrinsics parse_intrinsics_yaml(std::string_view bytes, const std::string& name);
+[[nodiscard]] Intrinsics parse_intrinsics_json(std::string_view bytes, const std::string& name);
+
+/// The ideal pinhole camera with these intrinsics for images of this resolution. Throws InputError where they are for
+/// another resolution. Depth limits stay those of RangeCamera.
+[[nodiscard]] RangeCamera pinhole_camera(const Intrinsics& intrinsics, Resolution resolution);
+
+/// The image that a pinhole camera without distortion would have taken: each pixel takes the depth of the nearest pixel
+/// of the distorted image, unknown where that lies outside. Returns the image as it is where there is no distortion.
+[[nodiscard]] RangeImage undistorted(RangeImage image, const Intrinsics& intrinsics);
+
+}  // namespace vantage

@@ -1,0 +1,222 @@
+#include "vantage/io/scan_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+#include "vantage/io/atomic_file.hpp"
+#include "vantage/io/depth_image.hpp"
+#include "vantage/io/natural_order.hpp"
+#include "vantage/io/organised_normals.hpp"
+#include "vantage/io/point_cloud_file.hpp"
+#include "vantage/io/pose_file.hpp"
+#include "vantage/io/pose_source.hpp"
+#include "vantage/io/text_reader.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A scan's file and its name without the endings that tell what it is.
+struct Found {
+  std::string name;
+  fs::path path;
+};
+
+bool ends_with(const std::string& text, std::string_view ending) {
+  return text.size() > ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+std::vector<Found> files_ending_with(const fs::path& folder, std::initializer_list<const char*> endings) {
+  std::vector<Found> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    for (const std::string_view ending : endings) {
+      if (file[0] != '.' && ends_with(file, ending))
+        found.push_back({file.substr(0, file.size() - ending.size()), entry.path()});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return comes_before(a.name, b.name); });
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    require(found[i - 1].name != found[i].name, found[i].path.string(), ": stands beside ",
+            found[i - 1].path.filename().string(), "; a scan must be one file");
+  }
+  return found;
+}
+
+std::vector<std::string> names_of(const std::vector<Found>& files) {
+  std::vector<std::string> names;
+  for (const Found& file : files) names.push_back(file.name);
+  return names;
+}
+
+fs::path intrinsics_file(const fs::path& folder, const ScanFolderOptions& options) {
+  if (!options.intrinsics.empty()) return below(folder, options.intrinsics);
+  constexpr std::array<const char*, 7> usual{"camera-intrinsics.txt",
+                                             "camera-intrinsics.yaml",
+                                             "camera-intrinsics.json",
+                                             "camera_info.yaml",
+                                             "intrinsics.txt",
+                                             "intrinsics.json",
+                                             "camera.json"};
+  for (const char* name : usual) {
+    if (fs::exists(folder / name)) return folder / name;
+  }
+  throw InputError(fmt::format("{}: has no intrinsics; must have one of {}, or give a file with --intrinsics",
+                               folder.string(), fmt::join(usual, ", ")));
+}
+
+Resolution image_resolution(const Found& frame, const Intrinsics& intrinsics) {
+  if (frame.path.extension() == ".png") return read_depth_resolution(frame.path);
+  require(intrinsics.resolution.has_value(), frame.path.string(),
+          ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
+  return *intrinsics.resolution;
+}
+
+ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& frames, const ScanFolderOptions& options) {
+  const fs::path file = intrinsics_file(folder, options);
+  const Intrinsics intrinsics = read_intrinsics(file);
+  RangeCamera camera;
+  try {
+    camera = pinhole_camera(intrinsics, image_resolution(frames.front(), intrinsics));
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{} with {}: {}", file.string(), frames.front().path.filename().string(), error.what()));
+  }
+  camera.min_depth = options.depth_range[0];
+  camera.max_depth = options.depth_range[1];
+  DepthEncoding encoding{.metres_per_unit = options.depth_scale, .no_return = std::nullopt};
+  if (options.no_return) encoding.no_return = static_cast<std::uint16_t>(*options.no_return);
+  const std::vector<Pose> poses = poses_of_scans(folder, options.poses, names_of(frames));
+  ScanSet set{{}, camera};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const fs::path path = frames[i].path;
+    set.scans.push_back({frames[i].name, View{poses[i]}, [path, camera, encoding, intrinsics] {
+                           return scan_of(undistorted(read_depth_image(path, camera, encoding), intrinsics));
+                         }});
+  }
+  return set;
+}
+
+/// A cloud as points in the sensor's frame with sight lines from its origin.
+Scan scan_of_cloud(const CloudFile& file) {
+  const Pose sensor_from_cloud = file.cloud_from_sensor.inverse();
+  PointScan scan;
+  scan.origins = {Vec3::Zero()};
+  for (const Vec3& point : file.cloud.points) scan.points.push_back(sensor_from_cloud * point);
+  const bool has_normals =
+      std::any_of(file.cloud.normals.begin(), file.cloud.normals.end(), [](const Vec3& n) { return !n.isZero(0); });
+  if (has_normals) {
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+      const Vec3 normal = sensor_from_cloud.linear() * file.cloud.normals[i];
+      scan.normals.push_back((normal.dot(scan.points[i]) > 0 ? Vec3(-normal) : normal).cast<float>());
+    }
+  } else if (file.grid.rows > 0) {
+    scan.normals = organised_normals(file.grid, file.point_of_cell, scan.points, scan.origins);
+  }
+  return scan;
+}
+
+ScanSet open_clouds(const fs::path& folder, const std::vector<Found>& files, const ScanFolderOptions& options) {
+  const std::vector<Pose> poses = poses_of_scans(folder, options.poses, names_of(files));
+  ScanSet set;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const fs::path path = files[i].path;
+    // Only a PCD file has a viewpoint of its own, and its header has to be read for it.
+    const Pose cloud_from_sensor =
+        cloud_format(path) == CloudFormat::pcd ? read_cloud(path).cloud_from_sensor : Pose(Pose::Identity());
+    set.scans.push_back(
+        {files[i].name, View{poses[i] * cloud_from_sensor}, [path] { return scan_of_cloud(read_cloud(path)); }});
+  }
+  return set;
+}
+
+/// A scan of the Stanford repository: parallel sight lines in x, meeting in one point of y and z, looking along -z.
+Scan read_line_scan(const fs::path& path, const Eigen::Vector2d& origin) {
+  CloudFile file = read_cloud(path);
+  require(file.grid.rows > 0, path.string(),
+          ": has no element 'range_grid'; it is not a scan of the Stanford repository");
+  PointScan scan;
+  scan.points = std::move(file.cloud.points);
+  for (const Vec3& point : scan.points) scan.origins.emplace_back(point.x(), origin[0], origin[1]);
+  scan.axis = -Vec3::UnitZ();
+  scan.normals = organised_normals(file.grid, file.point_of_cell, scan.points, scan.origins);
+  return scan;
+}
+
+ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
+  ScanSet set;
+  for (const ConfScan& scan : parse_conf(read_file(file), file.string())) {
+    const fs::path path = file.parent_path() / scan.file;
+    require(fs::exists(path), file.string(), ": names the scan ", in_quotes(scan.file),
+            ", which does not lie beside it");
+    set.scans.push_back({path.stem().string(), View{scan.world_from_scan},
+                         [path, origin = options.scanner_origin] { return read_line_scan(path, origin); }});
+  }
+  return set;
+}
+
+ScanSet open_folder(const fs::path& folder, const ScanFolderOptions& options) {
+  const std::vector<Found> frames = files_ending_with(folder, {".depth.png", ".depth.raw"});
+  if (!frames.empty()) return open_depth_frames(folder, frames, options);
+  const std::vector<Found> confs = files_ending_with(folder, {".conf"});
+  require(confs.size() <= 1, folder.string(), ": has ", confs.size(), " .conf files; give the path of one");
+  if (!confs.empty()) return open_conf(confs.front().path, options);
+  std::vector<Found> clouds = files_ending_with(folder, {".ply", ".pcd", ".xyz", ".xyzn"});
+  require(!clouds.empty(), folder.string(),
+          ": has no scans; must have NAME.depth.png or .raw, NAME.ply, .pcd or .xyz, or a .conf file");
+  return open_clouds(folder, clouds, options);
+}
+
+}  // namespace
+
+void ScanFolderOptions::validate() const {
+  DepthEncoding{.metres_per_unit = depth_scale, .no_return = std::nullopt}.validate();
+  require(depth_range.allFinite() && depth_range[0] >= 0 && depth_range[1] > depth_range[0],
+          "depth range = ", depth_range[0], ",", depth_range[1], " m: must be NEAR,FAR with 0 <= NEAR < FAR");
+  require(!no_return || (*no_return > 0 && *no_return <= 65535), "no-return = ", no_return.value_or(0),
+          ": must be within 1 and 65535");
+  require(scanner_origin.allFinite(), "scanner origin: must be finite numbers");
+}
+
+std::vector<ConfScan> parse_conf(std::string_view bytes, const std::string& name) {
+  TextReader text(bytes, name);
+  std::vector<ConfScan> scans;
+  while (text.next_line_with_words()) {
+    const std::string_view keyword = text.word();
+    if (keyword != "bmesh" && keyword != "mesh") continue;
+    ConfScan scan;
+    scan.file = text.word();
+    if (scan.file.empty()) text.fail("the name of the scan's file is missing");
+    if (fs::path(scan.file).has_parent_path())
+      text.fail(fmt::format("{}: must be the name of a file beside this one", in_quotes(scan.file)));
+    std::array<double, 7> n{};
+    constexpr std::array<const char*, 7> columns{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+    for (std::size_t i = 0; i < n.size(); ++i) n[i] = text.finite_number(columns[i]);
+    const Eigen::Quaterniond rotation(n[6], n[3], n[4], n[5]);
+    // The files give the rotation of the axes, which is the inverse of that of the points.
+    scan.world_from_scan =
+        pose_from_quaternion({n[0], n[1], n[2]}, rotation.conjugate(), fmt::format("{}: {}", name, scan.file));
+    scans.push_back(std::move(scan));
+  }
+  require(!scans.empty(), name, ": has no line 'bmesh FILE tx ty tz qx qy qz qw'");
+  return scans;
+}
+
+ScanSet open_scans(const fs::path& path, const ScanFolderOptions& options) {
+  options.validate();
+  try {
+    require(fs::exists(path), path.string(), ": there is no such file or folder");
+    if (fs::is_directory(path)) return open_folder(path, options);
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.code().message()));
+  }
+  require(path.extension() == ".conf", path.string(), ": scans must be a folder or a .conf file");
+  return open_conf(path, options);
+}
+
+}  // namespace vantage

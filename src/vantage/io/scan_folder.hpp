@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/io/camera_file.hpp"
+#include "vantage/reconstruction/scan.hpp"
+
+namespace vantage {
+
+/// How to read a folder of scans.
+struct ScanFolderOptions {
+  double depth_scale = 0.001;  // metres per unit of a depth image
+  /// Metres. Nearer is unknown, farther is "nothing up to there".
+  Eigen::Vector2d depth_range{0, 4.5};
+  /// Value of a depth image that says "nothing there", where the sensor knows it.
+  std::optional<int> no_return = std::nullopt;
+  /// Folder of pose files or trajectory, in the scans' folder or by its own path; empty: beside the scans.
+  std::string poses = "";
+  /// File, likewise; empty: one of the usual names.
+  std::string intrinsics = "";
+  /// y and z of the point where the sight lines of a Stanford scan meet, metres in its frame.
+  Eigen::Vector2d scanner_origin{0.18, 1.3};
+
+  /// Throws InputError naming the option.
+  void validate() const;
+};
+
+template <class Field>
+void describe(ScanFolderOptions& o, Field&& field) {
+  field("depth-scale", o.depth_scale, "m", "what one unit of a depth image means");
+  field("depth-range", o.depth_range, "m", "nearest and farthest depth to trust; beyond is free space up to the limit");
+  field("no-return", o.no_return, "", "value of a depth image that says that nothing is there");
+  field("poses", o.poses, "", "folder of pose files or trajectory (TUM); beside the frames if not given");
+  field("intrinsics", o.intrinsics, "", "file with the intrinsics; one of the usual names if not given");
+  field("scanner-origin", o.scanner_origin, "m", "y,z of the sight lines' origin of a line scanner (.conf)");
+}
+
+/// One scan of a set: where it was taken, as far as is believed, and how to get it.
+struct ScanFile {
+  std::string name;
+  View view;
+  std::function<Scan()> read;  // opens the file; throws InputError naming it
+};
+
+struct ScanSet {
+  std::vector<ScanFile> scans;        // by name, numbers by value
+  std::optional<RangeCamera> camera;  // of depth images
+};
+
+/// The scans of
+/// - a folder with `NAME.depth.png` (16 bit) or `NAME.depth.raw` (float32), intrinsics (`camera-intrinsics.txt`,
+///   `camera_info.yaml`, `intrinsics.json` ...) and `NAME.pose.txt` or `NAME.pose.json` each, or a trajectory whose
+///   times are the names, or as long as there are frames;
+/// - a folder with clouds `NAME.ply`, `.pcd`, `.xyz`, `.xyzn` in the sensor's frame and such poses;
+/// - a Stanford `.conf` with its range grids, or the folder it lies in.
+/// Poses and intrinsics are read at once, images and clouds on demand. Throws InputError naming the file and what is
+/// missing.
+[[nodiscard]] ScanSet open_scans(const std::filesystem::path& path, const ScanFolderOptions& options = {});
+
+/// One line of a Stanford `.conf`.
+struct ConfScan {
+  std::string file;
+  Pose world_from_scan = Pose::Identity();
+};
+/// The lines `bmesh FILE tx ty tz qx qy qz qw` (or `mesh`); others are ignored. p_world = transpose(R(q)) p_scan + t.
+[[nodiscard]] std::vector<ConfScan> parse_conf(std::string_view bytes, const std::string& name);
+
+}  // namespace vantage
