@@ -53,6 +53,7 @@ function showRun(run: Run, bar: ((session: Session) => SessionBar) | null): { se
   const help = helpDialog();
   const showHelp = () => help.showModal();
   const stage = h("div", { class: "stage" });
+  const layers = layersPanel(session);
   const live = bar?.(session) ?? null;
   app.className = "run";
   app.replaceChildren(
@@ -64,7 +65,7 @@ function showRun(run: Run, bar: ((session: Session) => SessionBar) | null): { se
         "section",
         { class: "scene", "aria-label": "scene" },
         stage,
-        layersPanel(session),
+        layers,
         detailsCard(session),
         live?.element,
         timelineBar(session, player),
@@ -84,9 +85,15 @@ function showRun(run: Run, bar: ((session: Session) => SessionBar) | null): { se
     help,
   );
   const scene = buildScene(session, stage);
+  const cover = () => scene?.viewport.setCover(layers.open && window.innerWidth > 900 ? layers.offsetWidth + 10 : 0);
+  layers.addEventListener("toggle", cover);
+  window.addEventListener("resize", cover);
+  cover();
+  scene?.viewport.goHome();
   listenForKeys(session, player, showHelp);
   session.store.refresh();
   window.vantage = { session, scene, live: window.vantage?.live ?? null };
+  scene?.viewport.drawFirst();
   document.documentElement.dataset["ready"] = "run";
   return { session, bar: live };
 }

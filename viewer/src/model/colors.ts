@@ -21,7 +21,10 @@ function ramp(stops: readonly Rgb[], t: number): Rgb {
 
 /** Dark blue for 0 to yellow for 1; values outside are clamped, NaN counts as 0. */
 export const viridis = (t: number): Rgb => ramp(VIRIDIS, t);
-export const viridisHex = (t: number): string => toHex(viridis(t));
+
+/** Colour of a value as a share of the highest: leaves out the darkest end, which a dark background would swallow. */
+export const shareColor = (share: number): Rgb => viridis(0.12 + 0.88 * Math.min(1, Math.max(0, share || 0)));
+export const shareHex = (share: number): string => toHex(shareColor(share));
 
 /** Colour of scan `index` among `count`: apart for few scans, in order for many. */
 export function scanColor(index: number, count: number): Rgb {

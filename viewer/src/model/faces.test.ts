@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { random } from "../../fixtures/vec.ts";
 import type { Vec3 } from "../data/run.ts";
-import { facingCount, pickVoxel, visibleFaces } from "./faces.ts";
+import { coarsen, facingCount, pickVoxel, visibleFaces } from "./faces.ts";
 
 const size: Vec3 = [5, 4, 6];
 const STEPS: Vec3[] = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]]; // prettier-ignore
@@ -55,6 +55,25 @@ describe("facingCount", () => {
         const count = facingCount(list, camera);
         expect(faces.slice(0, count).every(Boolean)).toBe(true);
         expect(faces.slice(count).some(Boolean)).toBe(false);
+      }
+    }
+  });
+});
+
+describe("coarsen", () => {
+  it("shows a block where and only where one of its eight voxels is shown", () => {
+    const mode = [0, 2, 0, 1, 0];
+    const cut = (x: number) => x > 3;
+    const coarse = coarsen(labels, size, mode, cut);
+    expect(coarse.size).toEqual([3, 2, 3]);
+    for (let c = 0; c < 18; ++c) {
+      const block = [c % 3, Math.floor(c / 3) % 2, Math.floor(c / 6)];
+      const members = [...labels.keys()].filter((v) => place(v).every((k, a) => k >> 1 === block[a]) && !cut(place(v)[0]));
+      const best = Math.max(0, ...members.map((v) => mode[labels[v]]));
+      expect([...mode, 0][coarse.labels[c]]).toBe(best);
+      if (best > 0) {
+        expect(members).toContain(coarse.voxelOf[c]);
+        expect(labels[coarse.voxelOf[c]]).toBe(coarse.labels[c]);
       }
     }
   });

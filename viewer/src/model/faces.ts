@@ -69,6 +69,42 @@ export function facingCount(list: FaceList, coordinate: number): number {
   return list.starts[Math.min(planes, Math.max(0, visible))];
 }
 
+/** A map of half the resolution, for drawing while the scene moves. */
+export interface CoarseMap {
+  size: Vec3;
+  labels: Uint8Array;
+  /** A voxel of the fine map that stands for each coarse one. */
+  voxelOf: Uint32Array;
+}
+
+/** Eight voxels become one, that of the most solid among them; `mode` and `cut` as in visibleFaces. */
+export function coarsen(
+  labels: Uint8Array,
+  size: Vec3,
+  mode: readonly number[],
+  cut: (x: number, y: number, z: number) => boolean = () => false,
+): CoarseMap {
+  const half = size.map((n) => Math.ceil(n / 2)) as Vec3;
+  const count = half[0] * half[1] * half[2];
+  // A cut voxel must stay hidden: it takes a label that is hidden, or one of its own beyond the last.
+  const coarse: CoarseMap = { size: half, labels: new Uint8Array(count).fill(mode.length), voxelOf: new Uint32Array(count) };
+  const best = new Uint8Array(count);
+  for (let z = 0, v = 0; z < size[2]; ++z) {
+    for (let y = 0; y < size[1]; ++y) {
+      const row = half[0] * ((y >> 1) + half[1] * (z >> 1));
+      for (let x = 0; x < size[0]; ++x, ++v) {
+        const solidity = mode[labels[v]];
+        const c = row + (x >> 1);
+        if (solidity <= best[c] || cut(x, y, z)) continue;
+        best[c] = solidity;
+        coarse.labels[c] = labels[v];
+        coarse.voxelOf[c] = v;
+      }
+    }
+  }
+  return coarse;
+}
+
 /**
  * The first shown voxel that a ray hits (Amanatides and Woo), in coordinates where voxel i covers [i, i+1), or null.
  */

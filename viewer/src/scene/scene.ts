@@ -2,21 +2,22 @@
 import * as THREE from "three";
 import { NEVER, type MapState } from "../data/history.ts";
 import { OCCUPIED, type Plan, type Pose, type Vec3 } from "../data/run.ts";
-import { LABEL_COLORS, normalColor, parseHex, scanColor, viridis, type Rgb } from "../model/colors.ts";
-import { pickVoxel } from "../model/faces.ts";
+import { LABEL_COLORS, normalColor, parseHex, scanColor, shareColor, viridis, type Rgb } from "../model/colors.ts";
+import { coarsen, pickVoxel } from "../model/faces.ts";
 import type { Session } from "../model/session.ts";
 import type { State } from "../model/state.ts";
 import { theme } from "../ui/theme.ts";
 import { CameraLayer } from "./cameras.ts";
 import { disposeTree } from "./geometry.ts";
 import { buildFrustum, buildGhost, buildNormals, buildPath, buildSlice, buildSurface, CloudLayer } from "./overlays.ts";
-import { Viewport } from "./viewport.ts";
+import { SLOW_FRAME_MS, Viewport } from "./viewport.ts";
 import { VoxelLayer } from "./voxels.ts";
 
 const MODES = { hide: 0, fade: 1, show: 2 } as const;
 const LABEL_RGB = LABEL_COLORS.map(parseHex);
 const GREY: Rgb = [120, 124, 130];
 const PICK_RADIUS = 14; // CSS pixels
+const MIN_FACES = 20_000; // fewer are always drawn in full
 
 export class SceneView {
   readonly viewport: Viewport;
@@ -26,6 +27,9 @@ export class SceneView {
   private built: Partial<Record<"path" | "frustum" | "normals" | "slice" | "mesh" | "truth", THREE.Object3D>> = {};
   private readonly root = new THREE.Group();
   private readonly marker: THREE.LineSegments;
+  private coarse: VoxelLayer | null = null;
+  /** While the scene moves, more faces than this are drawn coarsely: so many were slow before. */
+  private tooManyFaces = Infinity;
   private seen = new Uint8Array(0);
   private runId: unknown = null;
 
@@ -35,7 +39,10 @@ export class SceneView {
   ) {
     this.viewport = new Viewport(element);
     this.viewport.scene.add(this.root);
-    this.viewport.beforeFrame = () => this.voxels.cull(this.viewport.camera);
+    this.viewport.beforeFrame = () => this.chooseDetail();
+    this.viewport.afterMovingFrame = (ms) => {
+      if (ms > SLOW_FRAME_MS && this.voxels.group.visible) this.tooManyFaces = Math.min(this.tooManyFaces, this.faceCount);
+    };
     const cube = new THREE.EdgesGeometry(new THREE.BoxGeometry(1.04, 1.04, 1.04));
     this.marker = new THREE.LineSegments(cube, new THREE.LineBasicMaterial({ depthTest: false }));
     this.marker.renderOrder = 10;
@@ -64,6 +71,7 @@ export class SceneView {
     for (const child of [...this.root.children]) if (child !== this.marker) disposeTree(child);
     this.built = {};
     this.cloud = null;
+    this.coarse = null;
     const { grid, candidates, camera } = this.run;
     this.voxels = new VoxelLayer(grid);
     this.cameras = new CameraLayer(candidates, camera, this.glyphSize());
@@ -101,6 +109,35 @@ export class SceneView {
     return lines;
   }
 
+  /** While the scene moves on a slow machine, blocks of eight voxels stand for all. */
+  private chooseDetail(): void {
+    const coarsely = this.viewport.moving && this.faceCount > MIN_FACES && this.faceCount >= this.tooManyFaces;
+    if (coarsely && !this.coarse) this.buildCoarse();
+    this.voxels.group.visible = !coarsely;
+    this.cameras.showOutlines(!coarsely);
+    if (this.coarse) this.coarse.group.visible = coarsely;
+    (coarsely ? this.coarse! : this.voxels).cull(this.viewport.camera);
+  }
+
+  private buildCoarse(): void {
+    const { state } = this.session.store;
+    const { grid, scans } = this.run;
+    if (scans.length === 0) return;
+    const map = this.session.map(state.step);
+    const mode = state.labels.map((m) => MODES[m]);
+    const { labels, voxelOf } = coarsen(map.labels, grid.enclosureSize, mode, this.cut(state));
+    const color = this.colorOf(state, map);
+    this.coarse = new VoxelLayer(grid, 2);
+    this.coarse.build(labels, [...mode, 0], () => false, (v) => color(voxelOf[v]));
+    this.root.add(this.coarse.group);
+  }
+
+  private dropCoarse(): void {
+    if (!this.coarse) return;
+    disposeTree(this.coarse.group);
+    this.coarse = null;
+  }
+
   private update(state: State, changed: ReadonlySet<keyof State>): void {
     const has = (...keys: (keyof State)[]) => keys.some((k) => changed.has(k));
     if (this.session.takeNewRun()) this.setRun();
@@ -108,6 +145,7 @@ export class SceneView {
     if (this.run.scans.length === 0) return;
     const map = this.session.map(state.step);
     if (has("step", "layers")) this.markSeen(state);
+    if (has("step", "labels", "slice", "coloring", "layers")) this.dropCoarse();
     if (has("step", "labels", "slice")) {
       this.voxels.build(map.labels, state.labels.map((m) => MODES[m]), this.cut(state), this.colorOf(state, map));
     } else if (has("coloring", "layers")) {
@@ -160,7 +198,8 @@ export class SceneView {
       if (plan?.chosen === i) return { rgb: parseHex(theme.color("chosen")), alpha: 1 };
       if (!plan || !values || Number.isNaN(values[i])) return { rgb: GREY, alpha: 0.75 };
       if (plan.infeasible[i]) return { rgb: GREY, alpha: 0.3 };
-      return { rgb: viridis(highest > 0 ? values[i] / highest : 0), alpha: 0.95 };
+      const share = highest > 0 ? values[i] / highest : 0;
+      return { rgb: shareColor(share), alpha: 0.72 + 0.28 * share };
     });
   }
 

@@ -5,8 +5,20 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 // Colours are the page's own, written straight to the screen.
 THREE.ColorManagement.enabled = false;
 
+/**
+ * True where the browser has no graphics card to draw with. Smoothing edges by multisampling then takes most of the
+ * time; drawing at twice the resolution when the scene rests gives the same picture.
+ */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(gl!.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 /** While moving, frames slower than this are drawn with fewer pixels; at rest always with all. */
-const SLOW_FRAME_MS = 45;
+export const SLOW_FRAME_MS = 45;
 const MIN_SCALE = 0.5;
 
 export class Viewport {
@@ -19,15 +31,28 @@ export class Viewport {
   readonly frameTimes: number[] = [];
 
   private readonly renderer: THREE.WebGLRenderer;
+  private readonly restRatio: number;
+  private readonly movingRatio: number;
   private pending = false;
   private scale = 1;
-  private moving = false;
+  /** Drawn with the pixels of a moving scene; the first frame too, so that it comes soon. */
+  private quick = true;
+  private dragging = false;
+  /** True while the reader turns the scene; then speed counts more than detail. */
+  moving = false;
+  /** Called after every frame of a movement with the milliseconds it took. */
+  afterMovingFrame: (milliseconds: number) => void = () => {};
   private rest = 0;
+  private cover = 0;
+  private applied = "";
   private size = { width: 1, height: 1 };
-  private home = { position: new THREE.Vector3(1, -1, 1), target: new THREE.Vector3() };
+  private home = { target: new THREE.Vector3(), radius: 1 };
 
   constructor(private readonly element: HTMLElement) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    const software = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ antialias: !software, powerPreference: "high-performance" });
+    this.restRatio = software ? 2 : Math.min(2, window.devicePixelRatio);
+    this.movingRatio = software ? 1 : this.restRatio;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
@@ -40,7 +65,9 @@ export class Viewport {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
-    this.controls.addEventListener("change", () => this.onMove());
+    this.controls.addEventListener("start", () => (this.dragging = true));
+    this.controls.addEventListener("end", () => (this.dragging = false));
+    this.controls.addEventListener("change", () => (this.dragging ? this.onMove() : this.requestFrame()));
     canvas.addEventListener("keydown", (event) => this.onKey(event));
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#707078", 2.2));
     const sun = new THREE.DirectionalLight("#ffffff", 1.6);
@@ -61,17 +88,17 @@ export class Viewport {
 
   /** Looks at `target` from the front, upper left, so that a ball of `radius` fits. */
   frame(target: THREE.Vector3, radius: number): void {
-    const fit = radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2));
-    const aspect = Math.min(1, this.size.width / this.size.height);
-    const position = new THREE.Vector3(0.5, -0.95, 0.55).normalize().multiplyScalar(fit / Math.max(0.55, aspect));
-    this.home = { position: position.add(target), target };
+    this.home = { target, radius };
     this.goHome();
   }
 
   goHome(): void {
-    this.camera.position.copy(this.home.position);
-    this.controls.target.copy(this.home.target);
-    const distance = this.home.position.distanceTo(this.home.target);
+    const { target, radius } = this.home;
+    const narrow = Math.min(1, (this.size.width - this.cover) / this.size.height);
+    const distance = radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2)) / Math.max(0.5, narrow);
+    const direction = new THREE.Vector3(0.5, -0.95, 0.55).normalize();
+    this.camera.position.copy(target).addScaledVector(direction, distance);
+    this.controls.target.copy(target);
     this.camera.near = distance / 200;
     this.camera.far = distance * 20;
     this.camera.updateProjectionMatrix();
@@ -90,6 +117,13 @@ export class Viewport {
     this.camera.position.set(p.x, -p.z, p.y).add(this.controls.target);
     this.controls.update();
     this.onMove();
+  }
+
+  /** Pixels at the left that something else covers: the scene is centred in what is left. */
+  setCover(left: number): void {
+    if (left === this.cover) return;
+    this.cover = left;
+    this.resize();
   }
 
   requestFrame(): void {
@@ -118,6 +152,16 @@ export class Viewport {
     return caster.ray;
   }
 
+  /** Draws the first frame, and a sharp one when there is time. */
+  drawFirst(): void {
+    this.drawNow();
+    this.rest = window.setTimeout(() => {
+      this.quick = false;
+      this.applySize();
+      this.requestFrame();
+    }, 250);
+  }
+
   /** Draws now and waits until the pixels exist; returns the milliseconds that took. */
   drawNow(): number {
     const start = performance.now();
@@ -134,35 +178,42 @@ export class Viewport {
     if (!this.moving) return;
     this.frameTimes.push(time);
     if (this.frameTimes.length > 120) this.frameTimes.shift();
-    if (time > SLOW_FRAME_MS && this.scale > MIN_SCALE) this.setScale(Math.max(MIN_SCALE, this.scale * 0.8));
+    this.afterMovingFrame(time);
+    if (time > SLOW_FRAME_MS && this.scale > MIN_SCALE) {
+      this.scale = Math.max(MIN_SCALE, this.scale * 0.8);
+      this.applySize();
+    }
   }
 
   private onMove(): void {
     this.moving = true;
     window.clearTimeout(this.rest);
     this.rest = window.setTimeout(() => {
-      this.moving = false;
-      this.setScale(1);
+      this.moving = this.quick = false;
+      this.applySize();
       this.requestFrame();
     }, 180);
+    if (!this.quick) {
+      this.quick = true;
+      this.applySize();
+    }
     this.requestFrame();
   }
 
-  private setScale(scale: number): void {
-    if (scale === this.scale) return;
-    this.scale = scale;
-    this.applySize();
-  }
-
   private applySize(): void {
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio) * this.scale);
+    const ratio = this.quick ? this.movingRatio * this.scale : this.restRatio;
+    const wanted = `${this.size.width} ${this.size.height} ${ratio}`;
+    if (wanted === this.applied) return;
+    this.applied = wanted;
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(this.size.width, this.size.height);
   }
 
   private resize(): void {
     this.size = { width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight) };
-    this.camera.aspect = this.size.width / this.size.height;
-    this.camera.updateProjectionMatrix();
+    const { width, height } = this.size;
+    this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, -this.cover / 2, 0, width, height);
     this.applySize();
     this.requestFrame();
   }

@@ -39,6 +39,9 @@ const CORNERS: Vec3[][] = [0, 1, 2, 3, 4, 5].map((direction) => {
   });
 });
 
+/** Opacity of faded voxels, of 255. */
+const FADED = 84;
+
 /** How light a face is: as if the sun stood to the upper left in front. */
 const SHADE = [0.74, 0.86, 0.9, 0.7, 0.6, 1];
 
@@ -115,11 +118,12 @@ export class VoxelLayer {
   private index = new THREE.BufferAttribute(new Uint32Array(0), 1);
   private readonly size: Vec3;
 
-  constructor(grid: Grid) {
-    this.size = grid.enclosureSize;
+  /** `scale`: how many of the grid's voxels one of the layer's is wide. */
+  constructor(grid: Grid, scale = 1) {
+    this.size = grid.enclosureSize.map((n) => Math.ceil(n / scale)) as Vec3;
     const min = grid.enclosureMin.map((i, a) => grid.origin[a] + i * grid.voxel);
     this.group.position.fromArray(min);
-    this.group.scale.setScalar(grid.voxel);
+    this.group.scale.setScalar(grid.voxel * scale);
     const opaque = new THREE.ShaderMaterial({ vertexShader, fragmentShader });
     const glass = new THREE.ShaderMaterial({ vertexShader, fragmentShader, transparent: true, depthWrite: false });
     this.solid = SHADE.map(() => new FaceMesh(opaque));
@@ -140,13 +144,13 @@ export class VoxelLayer {
     this.faceCount = [...solid, ...faded].reduce((n, list) => n + list.voxels.length, 0);
     this.growIndex(Math.max(...[...solid, ...faded].map((list) => list.voxels.length)));
     solid.forEach((list, d) => this.solid[d].fill(list, this.size, color, 255, this.index));
-    faded.forEach((list, d) => this.faded[d].fill(list, this.size, color, 56, this.index));
+    faded.forEach((list, d) => this.faded[d].fill(list, this.size, color, FADED, this.index));
   }
 
   /** Colours anew, same faces. */
   paint(color: VoxelColor): void {
     for (const mesh of this.solid) mesh.paint(color, 255);
-    for (const mesh of this.faded) mesh.paint(color, 56);
+    for (const mesh of this.faded) mesh.paint(color, FADED);
   }
 
   cull(camera: THREE.Camera): void {

@@ -24,7 +24,7 @@ const LAYER_TEXT: Record<Layer, [string, string]> = {
 
 const AXES = ["x", "y", "z"] as const;
 
-export function layersPanel(session: Session): HTMLElement {
+export function layersPanel(session: Session): HTMLDetailsElement {
   const { store } = session;
   const labelRows = LABELS.map((label, i) => {
     const choice = segments(`${label} voxels`, MODES, (mode) => store.setLabel(i, mode));

@@ -1,6 +1,6 @@
 /** Values of all candidates as a map over the sphere, or as a slice of the cube; before and after convolution. */
 import type { Candidates, Plan } from "../data/run.ts";
-import { parseHex, viridis, viridisHex, type Rgb } from "../model/colors.ts";
+import { parseHex, shareColor, shareHex, type Rgb } from "../model/colors.ts";
 import { nearestMap, toMap } from "../model/projection.ts";
 import type { Session } from "../model/session.ts";
 import { QUANTITIES, type Quantity } from "../model/state.ts";
@@ -92,7 +92,7 @@ class MapPicture {
       const [x, y] = [p % layout.width, Math.floor(p / layout.width)];
       let rgb: Rgb;
       if (plan.infeasible[owner] || Number.isNaN(values[owner])) rgb = greys[(x + y) % 6 < 2 ? 1 : 0];
-      else rgb = viridis(highest > 0 ? values[owner] / highest : 0);
+      else rgb = shareColor(highest > 0 ? values[owner] / highest : 0);
       image.data.set([...rgb, 255], 4 * p);
     });
     context.putImageData(image, 0, 0);
@@ -145,7 +145,7 @@ export function utilityMap(session: Session): HTMLElement {
   layerInput.addEventListener("input", () => update());
   const layerRow = h("label", { class: "inline" }, "height ", layerInput);
   const note = h("p", { class: "note" });
-  const colors = [0, 0.25, 0.5, 0.75, 1].map(viridisHex).join(", ");
+  const colors = [0, 0.25, 0.5, 0.75, 1].map(shareHex).join(", ");
   const legend = h("div", { class: "scale" }, "0", h("span", { style: `background: linear-gradient(90deg, ${colors})` }), "highest");
   const maps = h("div", { class: "maps" }, before.element, after.element);
   const element = h("section", { class: "card", id: "utilities" },
