@@ -1,6 +1,7 @@
 #include "vantage/visibility/batch_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
@@ -9,49 +10,51 @@ constexpr double float_rounding = 0x1p-24;
 constexpr double double_rounding = 0x1p-50;
 constexpr double window_reach = 17;  // pixels of a window from the projected centre, at most
 
-/// Bounds on rounding: of pixel_of_offset and its sums, per row.
-Vec3 sum_errors(const Mat3& pixel_per_voxel, const Vec3& at_middle, const Vec3& half_size, double coordinate_error) {
-  // Seven roundings: of the constants, of three products and of three sums.
-  return 8 * float_rounding * (at_middle.cwiseAbs() + pixel_per_voxel.cwiseAbs() * half_size) +
-         coordinate_error * pixel_per_voxel.cwiseAbs().rowwise().sum();
+/// What the bounds on rounding are made of.
+struct Sizes {
+  Vec3 half;                     // half the enclosure, voxels
+  double coordinate;             // error of a lattice plane's offset, voxels
+  double distance;               // farthest voxel on any axis
+  double depth;                  // least depth of a voxel that is not left to double precision
+  double column_step, row_step;  // largest component of a direction's change per column and per row
+};
+
+/// Error of a projected centre in pixels: double precision, then a float within the window.
+double center_error(const Sizes& sizes, const Mat3& pixel_per_voxel, const Vec3& at_middle, int i, int pixels) {
+  const auto sum_error = [&](int row) {
+    const double terms = pixel_per_voxel.row(row).cwiseAbs().dot(sizes.half);
+    return 16 * double_rounding * (std::abs(at_middle[row]) + terms) +
+           sizes.coordinate * pixel_per_voxel.row(row).cwiseAbs().sum();
+  };
+  return (sum_error(i) + (pixels + 32) * sum_error(2)) / sizes.depth + 1e-12 * (pixels + 32) +
+         2 * float_rounding * window_reach;
 }
 
-void set_errors(BatchView& batch, const PixelFrame& frame, const Mat3& pixel_per_voxel, const Vec3& at_middle,
-                const Vec3& offset, const Vec3& half_size) {
-  const double length = frame.grid.length;
-  const double coordinates = frame.grid.min.cwiseAbs().maxCoeff() + frame.origin.cwiseAbs().maxCoeff() +
-                             length * frame.enclosure.max.cwiseAbs().maxCoeff();
-  const double coordinate_error = double_rounding * coordinates / length;
-  const Vec3 sums = sum_errors(pixel_per_voxel, at_middle, half_size, coordinate_error);
-  const double distance = (offset.cwiseAbs() + half_size).maxCoeff() + 1;
-  const double slack = sums.z() + 1e-6;
-  const double near = frame.near / length;
-  const double far = frame.far / length;
-  batch.half_depth = static_cast<float>(frame.half_extent.z() + slack);
-  batch.before_depth = static_cast<float>(near * (1 - 1e-6) - slack);
-  batch.beyond_depth = static_cast<float>(far * (1 + 1e-6) + slack);
-  batch.nearest_depth = static_cast<float>(std::max(near * (1 + 1e-6) + slack, distance / 16));
-  batch.farthest_depth = static_cast<float>(far * (1 - 1e-6) - slack);
-
-  const double nearest_center = at_middle.z() - pixel_per_voxel.row(2).cwiseAbs().dot(half_size);
-  const double depth = std::max(static_cast<double>(batch.nearest_depth), nearest_center);
-  const auto center_error = [&](int i, int pixels) {
-    return (sums[i] + (0.5 * pixels + 32) * sums.z()) / depth + 6 * float_rounding * (pixels + 32);
-  };
-  const double column_error = center_error(0, batch.columns);
-  const double row_error = center_error(1, batch.rows);
-  const double column_step = frame.directions.col(0).cwiseAbs().maxCoeff();
-  const double row_step = frame.directions.col(1).cwiseAbs().maxCoeff();
-  // A half-plane's two coefficients are differences of products with distances, each rounded up to six times.
-  const double line_error =
-      window_reach * (24 * float_rounding * distance + 4 * coordinate_error) * (column_step + row_step) +
-      16 * float_rounding * (distance / depth + window_reach * (column_step + row_step));
-  const double largest_row_term = (2 * distance + 1) * row_step;
-  batch.column_error = static_cast<float>(column_error + 64 * float_rounding);
-  batch.row_error = static_cast<float>(row_error);
+void set_line_errors(BatchView& batch, const Sizes& sizes) {
+  // Coefficients are a constant plus two products with an index. They err by 6 roundings of the products and 2 of
+  // themselves; the latter make up column_error where they are the column's.
+  const double products = sizes.half.maxCoeff() * 2 + 2;
+  const double largest_row = (2 * sizes.distance + 2) * sizes.row_step;
+  const double line_error = window_reach * 6 * float_rounding * products * (sizes.column_step + sizes.row_step) +
+                            window_reach * 2 * float_rounding * largest_row +
+                            window_reach * 4 * sizes.coordinate * (sizes.column_step + sizes.row_step) +
+                            8 * float_rounding * (sizes.distance / sizes.depth);
   batch.line_error = static_cast<float>(line_error);
+  batch.column_error += static_cast<float>(64 * float_rounding * window_reach);
   batch.column_error_of_steepness =
-      static_cast<float>(line_error + (row_error + 64 * float_rounding) * largest_row_term);
+      static_cast<float>(line_error + (static_cast<double>(batch.row_error) + 64 * float_rounding) * largest_row);
+}
+
+void set_depth_limits(BatchView& batch, const PixelFrame& frame, double distance) {
+  const double near = frame.near / frame.grid.length;
+  const double far = frame.far / frame.grid.length;
+  const double slack = 1e-5 * (1 + distance);
+  const auto set = [](float& limit, double value) { limit = static_cast<float>(std::clamp(value, -1e30, 1e30)); };
+  set(batch.half_depth, frame.half_extent.z() + slack);
+  set(batch.before_depth, near * (1 - 1e-6) - slack);
+  set(batch.beyond_depth, far * (1 + 1e-6) + slack);
+  set(batch.nearest_depth, std::max(near * (1 + 1e-6) + slack, distance / 16));
+  set(batch.farthest_depth, far * (1 - 1e-6) - slack);
 }
 
 }  // namespace
@@ -70,38 +73,62 @@ BatchView batch_view(const PixelFrame& frame, Coverage& coverage) {
   pixel_per_voxel.row(1) -= batch.middle_row * pixel_per_voxel.row(2);
   const Vec3 at_middle = pixel_per_voxel * offset;
   for (int a = 0; a < 3; ++a) {
-    batch.middle[a] = static_cast<float>(middle[a]);
+    batch.middle[a] = middle[a];
+    batch.cell[a] = frame.local_cell()[a];
     batch.offset[a] = static_cast<float>(offset[a]);
-    batch.pixel_of_offset[a] = static_cast<float>(at_middle[a]);
+    batch.pixel_of_middle[a] = at_middle[a];
     batch.per_column[a] = static_cast<float>(frame.directions(a, 0));
     batch.per_row[a] = static_cast<float>(frame.directions(a, 1));
-    for (int b = 0; b < 3; ++b) batch.pixel_per_voxel[a][b] = static_cast<float>(pixel_per_voxel(a, b));
+    for (int b = 0; b < 3; ++b) batch.pixel_per_voxel[a][b] = pixel_per_voxel(a, b);
   }
-  set_errors(batch, frame, pixel_per_voxel, at_middle, offset, 0.5 * size.cast<double>());
+
+  Sizes sizes{};
+  sizes.half = 0.5 * size.cast<double>();
+  sizes.distance = (offset.cwiseAbs() + sizes.half).maxCoeff() + 1;
+  set_depth_limits(batch, frame, sizes.distance);
+  const double length = frame.grid.length;
+  const double coordinates = frame.grid.min.cwiseAbs().maxCoeff() + frame.origin.cwiseAbs().maxCoeff() +
+                             length * frame.enclosure.max.cwiseAbs().maxCoeff();
+  sizes.coordinate = double_rounding * coordinates / length;
+  sizes.depth = std::max(static_cast<double>(batch.nearest_depth),
+                         at_middle.z() - pixel_per_voxel.row(2).cwiseAbs().dot(sizes.half));
+  sizes.column_step = frame.directions.col(0).cwiseAbs().maxCoeff();
+  sizes.row_step = frame.directions.col(1).cwiseAbs().maxCoeff();
+  batch.column_error = static_cast<float>(center_error(sizes, pixel_per_voxel, at_middle, 0, batch.columns));
+  batch.row_error = static_cast<float>(center_error(sizes, pixel_per_voxel, at_middle, 1, batch.rows));
+  set_line_errors(batch, sizes);
+
   batch.tiles = coverage.first_tile();
   batch.stride = coverage.stride();
   return batch;
 }
 
-bool is_batch_region(const Region& region) { return std::count(region.side.begin(), region.side.end(), 0) <= 1; }
-
 BatchRegion batch_region(const PixelFrame& frame, const Region& region) {
   BatchRegion batch{};
-  for (int a = 0; a < 3; ++a) batch.side[a] = region.side_of(a) < 0 ? -1.0F : 1.0F;
+  const Vec3 middle = frame.center(frame.enclosure.size() / 2);
+  for (int a = 0; a < 3; ++a) {
+    batch.side[a] = static_cast<float>(region.side_of(a));
+    batch.min[a] = region.box.min[a];
+    batch.max[a] = region.box.max[a];
+  }
   for (int c = 0; c < 3; ++c) {
-    const int axes[2] = {(c + 1) % 3, (c + 2) % 3};
-    BatchPair& pair = batch.pair[c];
-    for (int i = 0; i < 2; ++i) {
-      const int a = axes[i];
-      const int b = axes[1 - i];
-      const double half = region.side_of(a) == 0 ? -0.5 : 0.5;
-      const double side_a = static_cast<double>(batch.side[a]);
-      const double side_b = static_cast<double>(batch.side[b]);
-      pair.half[i] = static_cast<float>(half);
-      pair.column[i] =
-          static_cast<float>(half * side_a * frame.directions(a, 0) + 0.5 * side_b * frame.directions(b, 0));
-      pair.row[i] = static_cast<float>(half * side_a * frame.directions(a, 1) + 0.5 * side_b * frame.directions(b, 1));
-    }
+    const int a = (c + 1) % 3;
+    const int b = (c + 2) % 3;
+    const int sides = region.side_of(a) * region.side_of(b);
+    // For the direction's change d per column: side_a*side_b*(offset_b*d_a - offset_a*d_b) + (side_a*d_a +
+    // side_b*d_b)/2
+    const auto set = [&](int step, float(&of_middle)[2], float(&per_voxel)[2]) {
+      const double d_a = frame.directions(a, step);
+      const double d_b = frame.directions(b, step);
+      const double moment = sides * (middle[b] * d_a - middle[a] * d_b);
+      const double half = 0.5 * (region.side_of(a) * d_a + region.side_of(b) * d_b);
+      of_middle[0] = static_cast<float>(half + moment);
+      of_middle[1] = static_cast<float>(half - moment);
+      per_voxel[0] = static_cast<float>(-sides * d_b);
+      per_voxel[1] = static_cast<float>(sides * d_a);
+    };
+    set(0, batch.pair[c].column_of_middle, batch.pair[c].column_per_voxel);
+    set(1, batch.pair[c].row_of_middle, batch.pair[c].row_per_voxel);
   }
   return batch;
 }

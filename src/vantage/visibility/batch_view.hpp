@@ -10,9 +10,6 @@ namespace vantage {
 /// A frame for the vectorised path, with bounds on what single precision can be off. Both arguments must outlive it.
 [[nodiscard]] BatchView batch_view(const PixelFrame& frame, Coverage& coverage);
 
-/// For regions with at most one of the camera's slabs: the vectorised path needs an edge between two entered axes on
-/// every side of a silhouette.
-[[nodiscard]] bool is_batch_region(const Region& region);
 [[nodiscard]] BatchRegion batch_region(const PixelFrame& frame, const Region& region);
 
 }  // namespace vantage

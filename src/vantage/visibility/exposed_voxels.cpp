@@ -16,38 +16,56 @@ std::uint64_t bits_between(int first, int last, int w) {
   return from > to ? 0 : (~std::uint64_t{0} << from) & (~std::uint64_t{0} >> (63 - to));
 }
 
-/// The rows of a map's bit planes. What lies outside of the enclosure is empty.
-class Rows {
+/// One row of a map's bit planes and its neighbours towards the camera. What lies outside of the enclosure is empty.
+class Row {
  public:
-  explicit Rows(const VoxelMap& map) : map_(map), layout_(map.layout()) {}
+  Row(const VoxelMap& map, const Region& region, int y, int z)
+      : layout_(map.layout()), is_ascending_(region.side[0] > 0), y_(y), z_(z) {
+    const auto row_of = [&](const BitPlane& plane, int row_y, int row_z) -> const std::uint64_t* {
+      const bool is_inside = row_y >= 0 && row_y < layout_.size.y() && row_z >= 0 && row_z < layout_.size.z();
+      return is_inside ? plane.words.data() + layout_.row(row_y, row_z) : nullptr;
+    };
+    empty_ = row_of(map.empty(), y, z);
+    occupied_ = row_of(map.occupied(), y, z);
+    hidden_ = row_of(map.hidden(), y, z);
+    occplane_ = row_of(map.occplane(), y, z);
+    empty_before_y_ = row_of(map.empty(), y - region.side[1], z);
+    empty_before_z_ = row_of(map.empty(), y, z - region.side[2]);
+  }
 
-  [[nodiscard]] std::uint64_t empty(int y, int z, int w) const {
-    const bool outside =
-        y < 0 || y >= layout_.size.y() || z < 0 || z >= layout_.size.z() || w < 0 || w >= layout_.words_per_row;
-    return outside ? ~std::uint64_t{0} : map_.empty().words[word(y, z, w)] | ~layout_.row_mask(w);
-  }
+  [[nodiscard]] std::uint64_t full(int w) const { return ~empty_[w] & layout_.row_mask(w); }
   /// Voxels whose neighbour towards the camera is empty, on at least one axis; empty ones among them.
-  [[nodiscard]] std::uint64_t facing(const Region& region, int y, int z, int w) const {
-    std::uint64_t facing = 0;
-    if (region.side[0] > 0) facing |= empty(y, z, w) << 1U | empty(y, z, w - 1) >> 63U;
-    if (region.side[0] < 0) facing |= empty(y, z, w) >> 1U | empty(y, z, w + 1) << 63U;
-    if (region.side[1] != 0) facing |= empty(y - region.side[1], z, w);
-    if (region.side[2] != 0) facing |= empty(y, z - region.side[2], w);
-    return facing;
+  [[nodiscard]] std::uint64_t facing(int w) const {
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    const auto empty = [&](int word) {
+      return word < 0 || word >= layout_.words_per_row ? all : empty_[word] | ~layout_.row_mask(word);
+    };
+    const std::uint64_t along_x =
+        is_ascending_ ? empty_[w] << 1U | empty(w - 1) >> 63U : empty(w) >> 1U | empty(w + 1) << 63U;
+    return along_x | (empty_before_y_ ? empty_before_y_[w] : all) | (empty_before_z_ ? empty_before_z_[w] : all);
   }
-  [[nodiscard]] std::uint32_t pack(int y, int z, int w, int bit) const {
-    const std::size_t at = word(y, z, w);
-    const std::uint64_t is_hidden = map_.hidden().words[at] >> bit & 1U;
-    const std::uint64_t is_marked = (map_.occupied().words[at] | map_.occplane().words[at]) >> bit & 1U;
-    return static_cast<std::uint32_t>(64 * w + bit) | static_cast<std::uint32_t>(y) << 10U |
-           static_cast<std::uint32_t>(z) << 20U | static_cast<std::uint32_t>(is_hidden << 31U | is_marked << 30U);
+  /// Appends the voxels of the given bits of a word, away from the camera.
+  void pack(int w, std::uint64_t bits, std::vector<std::uint32_t>& voxels) const {
+    const std::uint64_t hidden = hidden_[w];
+    const std::uint64_t marked = occupied_[w] | occplane_[w];
+    const std::uint32_t place = static_cast<std::uint32_t>(64 * w) | static_cast<std::uint32_t>(y_) << 10U |
+                                static_cast<std::uint32_t>(z_) << 20U;
+    std::array<std::uint32_t, 64> packed;  // NOLINT: filled below
+    std::size_t count = 0;
+    while (bits != 0) {
+      const int bit = is_ascending_ ? std::countr_zero(bits) : 63 - std::countl_zero(bits);
+      bits &= ~(std::uint64_t{1} << bit);
+      packed[count++] = (place + static_cast<std::uint32_t>(bit)) |
+                        static_cast<std::uint32_t>((hidden >> bit & 1U) << 31U | (marked >> bit & 1U) << 30U);
+    }
+    voxels.insert(voxels.end(), packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(count));
   }
 
  private:
-  [[nodiscard]] std::size_t word(int y, int z, int w) const { return layout_.row(y, z) + static_cast<std::size_t>(w); }
-
-  const VoxelMap& map_;
   const BitLayout& layout_;
+  bool is_ascending_;
+  int y_, z_;
+  const std::uint64_t *empty_, *occupied_, *hidden_, *occplane_, *empty_before_y_, *empty_before_z_;
 };
 
 /// Indices min..max, ascending or descending so that they step away from the camera.
@@ -65,19 +83,15 @@ std::size_t octant_number(const std::array<int, 3>& side) {
 
 std::vector<Region> regions_front_to_back(const Index3& size, const Index3& camera_cell) {
   std::vector<Region> regions;
-  for (int slabs = 3; slabs >= 0; --slabs) {
-    for (int code = 0; code < 27; ++code) {
-      const std::array<int, 3> side{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
-      if (std::count(side.begin(), side.end(), 0) != slabs) continue;
-      Region region;
-      region.side = side;
-      for (int a = 0; a < 3; ++a) {
-        const int s = region.side_of(a);
-        region.box.min[a] = std::max(0, s < 0 ? 0 : camera_cell[a] + s);
-        region.box.max[a] = std::min(size[a] - 1, s > 0 ? size[a] - 1 : camera_cell[a] + s);
-      }
-      if ((region.box.min.array() <= region.box.max.array()).all()) regions.push_back(region);
+  for (int code = 0; code < 8; ++code) {
+    Region region;
+    region.side = {(code & 1) != 0 ? -1 : 1, (code & 2) != 0 ? -1 : 1, (code & 4) != 0 ? -1 : 1};
+    for (int a = 0; a < 3; ++a) {
+      const bool is_positive = region.side_of(a) > 0;
+      region.box.min[a] = is_positive ? std::max(0, camera_cell[a]) : 0;
+      region.box.max[a] = is_positive ? size[a] - 1 : std::min(size[a] - 1, camera_cell[a] - 1);
     }
+    if ((region.box.min.array() <= region.box.max.array()).all()) regions.push_back(region);
   }
   return regions;
 }
@@ -116,24 +130,17 @@ const std::vector<std::uint32_t>* ExposedVoxels::octant(const std::array<int, 3>
 }
 
 void ExposedVoxels::collect(const Region& region, const FirstVoxels* first, std::vector<std::uint32_t>& voxels) const {
-  const Rows rows(*map_);
-  const BitLayout& layout = map_->layout();
   const Steps zs(region.box.min.z(), region.box.max.z(), region.side[2]);
   const Steps ys(region.box.min.y(), region.box.max.y(), region.side[1]);
   const Steps ws(region.box.min.x() / 64, region.box.max.x() / 64, region.side[0]);
   for (int z = zs.first; z != zs.end; z += zs.step) {
     for (int y = ys.first; y != ys.end; y += ys.step) {
+      const Row row(*map_, region, y, z);
       const std::array<int, 2> first_in_row = first ? first->in_row(y, z) : std::array{0, -1};
       for (int w = ws.first; w != ws.end; w += ws.step) {
-        const std::uint64_t full =
-            ~rows.empty(y, z, w) & layout.row_mask(w) & bits_between(region.box.min.x(), region.box.max.x(), w);
+        const std::uint64_t full = row.full(w) & bits_between(region.box.min.x(), region.box.max.x(), w);
         if (full == 0) continue;
-        std::uint64_t found = full & (rows.facing(region, y, z, w) | bits_between(first_in_row[0], first_in_row[1], w));
-        while (found != 0) {
-          const int bit = region.side[0] < 0 ? 63 - std::countl_zero(found) : std::countr_zero(found);
-          found &= ~(std::uint64_t{1} << bit);
-          voxels.push_back(rows.pack(y, z, w, bit));
-        }
+        row.pack(w, full & (row.facing(w) | bits_between(first_in_row[0], first_in_row[1], w)), voxels);
       }
     }
   }

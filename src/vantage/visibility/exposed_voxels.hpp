@@ -25,17 +25,17 @@ struct PackedVoxel {
   [[nodiscard]] Kind kind() const { return static_cast<Kind>(bits >> 30U); }
 };
 
-/// Voxels on the same side of the camera on every axis: `side` is the sign of (voxel - camera's cell), 0 in its slab.
+/// Voxels in one octant around the camera: `side` is the sign of (voxel - camera's cell) on each axis. The camera's own
+/// slab of an axis belongs to the positive side.
 struct Region {
   IndexBox box;  // local
-  std::array<int, 3> side{};
+  std::array<int, 3> side{1, 1, 1};
 
   [[nodiscard]] int side_of(int axis) const { return side[static_cast<std::size_t>(axis)]; }
-  [[nodiscard]] bool is_octant() const { return side[0] != 0 && side[1] != 0 && side[2] != 0; }
 };
 
-/// The up to 27 regions of a box around the camera's cell, front to back: a ray leaves its slabs one after the other
-/// and never comes back.
+/// The up to eight octants of a box around the camera's cell, front to back: positive sides first, because a ray leaves
+/// the camera's slabs, which belong there, and never comes back.
 [[nodiscard]] std::vector<Region> regions_front_to_back(const Index3& size, const Index3& camera_cell);
 
 /// Voxels in which rays may begin without having come through an empty neighbour, as an interval of x for every row.

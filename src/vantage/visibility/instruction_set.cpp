@@ -23,13 +23,13 @@ std::vector<InstructionSet> available_instruction_sets() {
   return sets;
 }
 
-SplatBatch splat_batch_for(InstructionSet set) {
+SplatKernels splat_kernels_for(InstructionSet set) {
 #ifdef VANTAGE_X86_64
-  if (set == InstructionSet::avx2) return splat_batch_avx2;
-  if (set == InstructionSet::avx512) return splat_batch_avx512;
+  if (set == InstructionSet::avx2) return splat_kernels_avx2();
+  if (set == InstructionSet::avx512) return splat_kernels_avx512();
 #endif
   (void)set;
-  return splat_batch_portable;
+  return splat_kernels_portable();
 }
 
 }  // namespace vantage

@@ -13,6 +13,6 @@ enum class InstructionSet { portable, avx2, avx512 };
 [[nodiscard]] std::string_view name(InstructionSet set);
 /// Those that this program was built for and this processor runs, the fastest last.
 [[nodiscard]] std::vector<InstructionSet> available_instruction_sets();
-[[nodiscard]] SplatBatch splat_batch_for(InstructionSet set);
+[[nodiscard]] SplatKernels splat_kernels_for(InstructionSet set);
 
 }  // namespace vantage

@@ -14,6 +14,24 @@ bool beyond_incidence(const VoxelMap& map, const Index3& voxel, const Vec3& axis
   return !normal.isZero(0) && facing_cosine(axis, normal) < min_cosine;
 }
 
+/// Tells voxels that end rays, at one look-up per voxel.
+class EmptyVoxels {
+ public:
+  explicit EmptyVoxels(const VoxelMap& map)
+      : layout_(map.layout()), min_(map.enclosure().min), words_(map.empty().words.data()) {}
+
+  [[nodiscard]] bool contains(const Index3& voxel) const {
+    const Index3 local = voxel - min_;
+    const bool is_inside = (local.array() >= 0).all() && (local.array() < layout_.size.array()).all();
+    return !is_inside || (words_[layout_.word(local)] & BitLayout::bit(local)) != 0;
+  }
+
+ private:
+  BitLayout layout_;
+  Index3 min_;
+  const std::uint64_t* words_;
+};
+
 /// Voxels that end rays, each once.
 class EndVoxels {
  public:
@@ -78,13 +96,14 @@ std::vector<Index3> visible_voxels_exactly(const VoxelMap& map, const RangeCamer
                                            Resolution resolution) {
   const RayGrid rays = camera.rays(resolution);
   const Mat3 rotation = view.world_from_sensor.linear();
+  const EmptyVoxels empty(map);
   EndVoxels ends(map);
   for (int row = 0; row < resolution.rows; ++row) {
     for (int column = 0; column < resolution.columns; ++column) {
       const LatticeRay ray(map.grid(), view.position(), ray_direction(rotation, rays.x(column), rays.y(row)));
       visit_voxels(map.grid(), map.enclosure(), ray, camera.min_depth, [&](const Index3& voxel, double entered) {
         if (entered > camera.max_depth) return false;
-        if (map.label(voxel) == Label::empty) return true;
+        if (empty.contains(voxel)) return true;
         ends.add(voxel);
         return false;
       });
@@ -100,6 +119,7 @@ Visibility see_exactly(const VoxelMap& map, const RangeCamera& camera, const Vie
 Visibility see_by_bresenham(const VoxelMap& map, const RangeCamera& camera, const View& view, Resolution resolution) {
   const RayGrid rays = camera.rays(resolution);
   const Mat3 rotation = view.world_from_sensor.linear();
+  const EmptyVoxels empty(map);
   EndVoxels ends(map);
   for (int row = 0; row < resolution.rows; ++row) {
     for (int column = 0; column < resolution.columns; ++column) {
@@ -107,7 +127,7 @@ Visibility see_by_bresenham(const VoxelMap& map, const RangeCamera& camera, cons
       const Index3 from = map.grid().index_of(Vec3(view.position() + camera.min_depth * direction));
       const Index3 to = map.grid().index_of(Vec3(view.position() + camera.max_depth * direction));
       visit_bresenham(from, to, [&](const Index3& voxel) {
-        if (map.label(voxel) == Label::empty) return true;
+        if (empty.contains(voxel)) return true;
         ends.add(voxel);
         return false;
       });

@@ -7,22 +7,24 @@
 // pull in inline functions: the linker could keep a copy that older processors cannot run.
 namespace vantage {
 
-/// A view for the vectorised path, in single precision. Offsets are in voxels from the camera; voxel indices count from
-/// `middle`, pixels from (middle_column, middle_row), so that the numbers stay small and their rounding too.
+/// A view for the vectorised path. Voxel indices count from `middle`, pixels from (middle_column, middle_row), so that
+/// the numbers stay small and their rounding too. Offsets and depths are in voxels.
 struct BatchView {
-  float middle[3];                  // local voxel index
-  float offset[3];                  // of the centre of the middle voxel
-  float pixel_of_offset[3];         // (column*depth, row*depth, depth) of that centre
-  float pixel_per_voxel[3][3];      // [column*depth, row*depth, depth][axis]
+  std::int32_t middle[3];           // local voxel index
+  float offset[3];                  // of the middle voxel's centre from the camera
+  double pixel_of_middle[3];        // (column*depth, row*depth, depth) of that centre
+  double pixel_per_voxel[3][3];     // [column*depth, row*depth, depth][axis]
   float per_column[3], per_row[3];  // change of a ray's direction from column to column, row to row
-  int middle_column, middle_row;
-  int columns, rows;
+  std::int32_t middle_column, middle_row;
+  std::int32_t columns, rows;
+  std::int32_t cell[3];                 // the camera's voxel
   float half_depth;                     // of a voxel
   float nearest_depth, farthest_depth;  // voxels wholly between them are not cut by the depth limits
   float before_depth, beyond_depth;     // voxels wholly before or beyond them are never seen
-  float column_error, row_error;        // of a projected centre, in pixels
-  float line_error;                     // of a half-plane's value at a pixel of the voxel's window
-  float column_error_of_steepness;      // a line column*c + row*r + k > 0 errs by this over |column|, in columns
+  float row_error;                      // of a projected centre, in rows
+  float line_error;                     // of a nearly level half-plane's value at a pixel of the voxel's window
+  float column_error;                   // of every border, in columns, and
+  float column_error_of_steepness;      // that of the border of column*c + row*r + k > 0, times |column|
   std::uint64_t* tiles;                 // Coverage::first_tile()
   std::ptrdiff_t stride;
   /// Takes the voxels that need double precision; returns whether they are visible.
@@ -30,17 +32,19 @@ struct BatchView {
   const void* context;
 };
 
-/// The two conditions that a pair of axes (a, b) puts on a ray, as half-planes around the voxel's projected centre:
-/// (P + column[0]) c + (Q + row[0]) r + .. > 0 and (column[1] - P) c + (row[1] - Q) r + .. > 0.
+/// The two conditions that a pair of axes (a, b) puts on a ray ("enters a before it leaves b" and the other way round)
+/// as half-planes column*c + row*r + constant > 0 around a voxel's projected centre. Their coefficients are linear in
+/// the voxel's index: column = column_of_middle[i] +- (column_per_voxel[0]*index[a] + column_per_voxel[1]*index[b]).
 struct BatchPair {
-  float half[2];  // 1/2, or -1/2 where the silhouette's edge lies on the near face because the camera is in the slab
-  float column[2], row[2];
+  float column_of_middle[2], column_per_voxel[2];
+  float row_of_middle[2], row_per_voxel[2];
 };
 
 /// Voxels on one side of the camera (Region), for the vectorised path.
 struct BatchRegion {
-  float side[3];      // +1 or -1; +1 in the camera's slab
-  BatchPair pair[3];  // pair c: axes (c+1)%3 and (c+2)%3
+  float side[3];                // +1 or -1
+  BatchPair pair[3];            // pair c: axes (c+1)%3 and (c+2)%3
+  std::int32_t min[3], max[3];  // local voxel indices
 };
 
 /// Splats packed voxels in their order; writes the visible ones to `visible`, which has room for all, and returns how
@@ -48,9 +52,17 @@ struct BatchRegion {
 using SplatBatch = std::size_t (*)(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
                                    std::size_t count, std::uint32_t* visible);
 
-std::size_t splat_batch_portable(const BatchView&, const BatchRegion&, const std::uint32_t*, std::size_t,
-                                 std::uint32_t*);
-std::size_t splat_batch_avx2(const BatchView&, const BatchRegion&, const std::uint32_t*, std::size_t, std::uint32_t*);
-std::size_t splat_batch_avx512(const BatchView&, const BatchRegion&, const std::uint32_t*, std::size_t, std::uint32_t*);
+/// Copies the packed voxels that lie in the region, in their order; `inside` has room for 16 more than there are.
+using SelectInside = std::size_t (*)(const BatchRegion& region, const std::uint32_t* voxels, std::size_t count,
+                                     std::uint32_t* inside);
+
+struct SplatKernels {
+  SplatBatch splat;
+  SelectInside select;
+};
+
+[[nodiscard]] SplatKernels splat_kernels_portable();
+[[nodiscard]] SplatKernels splat_kernels_avx2();
+[[nodiscard]] SplatKernels splat_kernels_avx512();
 
 }  // namespace vantage

@@ -3,9 +3,8 @@
 
 namespace vantage {
 
-std::size_t splat_batch_avx2(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
-                             std::size_t count, std::uint32_t* visible) {
-  return simd::splat_batches<simd::VectorAvx2>(view, region, voxels, count, visible);
+SplatKernels splat_kernels_avx2() {
+  return {simd::splat_batches<simd::VectorAvx2>, simd::select_inside<simd::VectorAvx2>};
 }
 
 }  // namespace vantage

@@ -3,9 +3,8 @@
 
 namespace vantage {
 
-std::size_t splat_batch_portable(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
-                                 std::size_t count, std::uint32_t* visible) {
-  return simd::splat_batches<simd::VectorPortable>(view, region, voxels, count, visible);
+SplatKernels splat_kernels_portable() {
+  return {simd::splat_batches<simd::VectorPortable>, simd::select_inside<simd::VectorPortable>};
 }
 
 }  // namespace vantage

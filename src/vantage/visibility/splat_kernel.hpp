@@ -40,44 +40,58 @@ constexpr float levelness = 0x1p-11F;      // lines of a smaller |column/row| ar
 constexpr float sub_pixels = 0x1p16F;      // columns are compared in fixed point
 constexpr std::int32_t sub_pixel_bits = 16;
 
+/// Where a batch's voxels are.
 template <class V>
-struct Center {
-  typename V::Float offset[3];  // from the camera, in voxels
-  typename V::Float pixel[3];   // (column*depth, row*depth, depth)
+struct Place {
+  typename V::Float index[3];   // from the view's middle voxel
+  typename V::Float offset[3];  // of the centre from the camera, in voxels
+  typename V::Int in_slab[3];   // mask: the camera is in the same slab of that axis
+  typename V::Int few_sides;    // mask: ... on two axes or more, where silhouettes have fewer than six edges
 };
 
 template <class V>
-Center<V> center_of(const BatchView& view, typename V::Int voxels) {
-  using Float = typename V::Float;
-  const Float index[3] = {V::to_float(voxels & V::all(1023)) - V::all(view.middle[0]),
-                          V::to_float((voxels >> 10) & V::all(1023)) - V::all(view.middle[1]),
-                          V::to_float((voxels >> 20) & V::all(1023)) - V::all(view.middle[2])};
-  Center<V> center;
+Place<V> place_of(const BatchView& view, typename V::Int voxels) {
+  using Int = typename V::Int;
+  const Int index[3] = {voxels & V::all(1023), (voxels >> 10) & V::all(1023), (voxels >> 20) & V::all(1023)};
+  Place<V> place;
   for (int a = 0; a < 3; ++a) {
-    center.offset[a] = index[a] + V::all(view.offset[a]);
-    Float sum = V::all(view.pixel_of_offset[a]);
-    for (int b = 0; b < 3; ++b) sum = V::multiply_add(V::all(view.pixel_per_voxel[a][b]), index[b], sum);
-    center.pixel[a] = sum;
+    place.index[a] = V::to_float(index[a] - V::all(view.middle[a]));
+    place.offset[a] = place.index[a] + V::all(view.offset[a]);
+    place.in_slab[a] = index[a] == V::all(view.cell[a]);
   }
-  return center;
+  place.few_sides = (place.in_slab[0] & place.in_slab[1]) | (place.in_slab[1] & place.in_slab[2]) |
+                    (place.in_slab[2] & place.in_slab[0]);
+  return place;
+}
+
+/// A voxel's centre as (column*depth, row*depth, depth), in double precision: its error would shift all borders.
+template <class V>
+typename V::Double pixel_of(const BatchView& view, const typename V::Double (&index)[3], int i) {
+  typename V::Double sum = V::all(view.pixel_of_middle[i]);
+  for (int a = 0; a < 3; ++a) sum = V::multiply_add(V::all(view.pixel_per_voxel[i][a]), index[a], sum);
+  return sum;
 }
 
 /// How far the silhouette reaches from its centre, in pixels: see extent() in footprint.cpp for the bound.
 template <class V>
-typename V::Float reach(const float (&pixel)[3], const float (&depth)[3], typename V::Float middle,
+typename V::Float reach(const double (&pixel)[3], const double (&depth)[3], typename V::Float middle,
                         typename V::Float inverse_nearest) {
   typename V::Float sum = V::all(0.0F);
   for (int a = 0; a < 3; ++a) {
-    sum += V::absolute(V::multiply_add(-middle, V::all(depth[a]), V::all(pixel[a])));
+    const auto per_depth = static_cast<float>(depth[a]);
+    sum += V::absolute(V::multiply_add(-middle, V::all(per_depth), V::all(static_cast<float>(pixel[a]))));
   }
   return V::all(0.5F) * sum * inverse_nearest;
 }
 
 template <class V>
-Window<V> window_of(const BatchView& view, const Center<V>& center) {
+Window<V> window_of(const BatchView& view, const Place<V>& place) {
   using Float = typename V::Float;
   using Int = typename V::Int;
-  const Float depth = center.pixel[2];
+  using Double = typename V::Double;
+  const Double index[3] = {V::to_double(place.index[0]), V::to_double(place.index[1]), V::to_double(place.index[2])};
+  const Double exact_depth = pixel_of<V>(view, index, 2);
+  const Float depth = V::to_float(exact_depth);
   const Float nearest = depth - V::all(view.half_depth);
   const Float farthest = depth + V::all(view.half_depth);
   const Int is_cut = (nearest < V::all(view.nearest_depth)) | (farthest > V::all(view.farthest_depth));
@@ -85,8 +99,13 @@ Window<V> window_of(const BatchView& view, const Center<V>& center) {
   const Float safe_depth = V::max(depth, V::all(view.nearest_depth));
   const Float inverse_depth = V::all(1.0F) / safe_depth;
   const Float inverse_nearest = V::all(1.0F) / V::max(nearest, V::all(view.nearest_depth));
-  const Float column = center.pixel[0] * inverse_depth;
-  const Float row = center.pixel[1] * inverse_depth;
+  // One step of Newton's method doubles the digits of the reciprocal.
+  const Double rough = V::to_double(inverse_depth);
+  const Double exact_inverse = rough * (V::all(2.0) - exact_depth * rough);
+  const Double exact_column = pixel_of<V>(view, index, 0) * exact_inverse;
+  const Double exact_row = pixel_of<V>(view, index, 1) * exact_inverse;
+  const Float column = V::to_float(exact_column);
+  const Float row = V::to_float(exact_row);
   const Float column_reach =
       reach<V>(view.pixel_per_voxel[0], view.pixel_per_voxel[2], column, inverse_nearest) + V::all(0.01F);
   const Float row_reach =
@@ -107,9 +126,10 @@ Window<V> window_of(const BatchView& view, const Center<V>& center) {
                       (first_row >= V::all(view.rows)) | (first_column > last_column) | (first_row > last_row));
   window.outside = is_unseen | (is_off & ~is_cut);
   const Int is_large = (last_column - window.first_column >= 16) | (last_row - (first_row & V::all(~7)) >= 16);
-  window.special = is_cut | is_large;
-  window.column = column - V::to_float(window.first_column - V::all(view.middle_column));
-  window.row = row - V::to_float(window.first_row - V::all(view.middle_row));
+  window.special = is_cut | is_large | place.few_sides;
+  const auto from = [](Double exact, Int first) { return V::to_float(exact - V::to_double(V::to_float(first))); };
+  window.column = from(exact_column, window.first_column - V::all(view.middle_column));
+  window.row = from(exact_row, window.first_row - V::all(view.middle_row));
   return window;
 }
 
@@ -156,30 +176,50 @@ Border<V> border_of(const BatchView& view, const Window<V>& window, const HalfPl
   return border;
 }
 
+/// In the camera's slab of axis a the ray need not enter a: its silhouette's edge lies on the near face of b.
 template <class V>
-Borders<V> borders_of(const BatchView& view, const BatchRegion& region, const Center<V>& center,
+void move_to_near_face(const BatchView& view, const BatchRegion& region, const Place<V>& place, int a,
+                       const Window<V>& window, HalfPlane<V>& line) {
+  using Float = typename V::Float;
+  const Float one = V::select(place.in_slab[a], V::all(region.side[a]), V::all(0.0F));
+  line.column -= one * V::all(view.per_column[a]);
+  line.row -= one * V::all(view.per_row[a]);
+  line.constant -= one * place.offset[a] * window.inverse_depth;
+}
+
+/// Both half-planes of pair c.
+template <class V>
+void lines_of(const BatchView& view, const BatchRegion& region, const Place<V>& place, const Window<V>& window, int c,
+              HalfPlane<V> (&lines)[2]) {
+  using Float = typename V::Float;
+  const int a = (c + 1) % 3;
+  const int b = (c + 2) % 3;
+  const BatchPair& pair = region.pair[c];
+  const Float column = V::multiply_add(V::all(pair.column_per_voxel[0]), place.index[a],
+                                       V::all(pair.column_per_voxel[1]) * place.index[b]);
+  const Float row =
+      V::multiply_add(V::all(pair.row_per_voxel[0]), place.index[a], V::all(pair.row_per_voxel[1]) * place.index[b]);
+  const Float constant =
+      V::multiply_add(V::all(0.5F * region.side[a]), place.offset[a], V::all(0.5F * region.side[b]) * place.offset[b]) *
+      window.inverse_depth;
+  lines[0] = {V::all(pair.column_of_middle[0]) + column, V::all(pair.row_of_middle[0]) + row, constant};
+  lines[1] = {V::all(pair.column_of_middle[1]) - column, V::all(pair.row_of_middle[1]) - row, constant};
+  if (V::lane_bits(place.in_slab[a]) != 0) move_to_near_face<V>(view, region, place, a, window, lines[0]);
+  if (V::lane_bits(place.in_slab[b]) != 0) move_to_near_face<V>(view, region, place, b, window, lines[1]);
+}
+
+template <class V>
+Borders<V> borders_of(const BatchView& view, const BatchRegion& region, const Place<V>& place,
                       const Window<V>& window) {
   using Float = typename V::Float;
-  Float distance[3];
-  for (int a = 0; a < 3; ++a) distance[a] = V::all(region.side[a]) * center.offset[a];
   Borders<V> borders;
   borders.steepness = V::all(0.0F);
   borders.special = V::all(0);
   for (int c = 0; c < 3; ++c) {
-    const int a = (c + 1) % 3;
-    const int b = (c + 2) % 3;
-    const BatchPair& pair = region.pair[c];
-    const Float p = distance[b] * V::all(region.side[a] * view.per_column[a]) -
-                    distance[a] * V::all(region.side[b] * view.per_column[b]);
-    const Float q =
-        distance[b] * V::all(region.side[a] * view.per_row[a]) - distance[a] * V::all(region.side[b] * view.per_row[b]);
-    const Float half = V::all(0.5F);
-    const HalfPlane<V> lines[2] = {{p + V::all(pair.column[0]), q + V::all(pair.row[0]),
-                                    (V::all(pair.half[0]) * distance[a] + half * distance[b]) * window.inverse_depth},
-                                   {V::all(pair.column[1]) - p, V::all(pair.row[1]) - q,
-                                    (V::all(pair.half[1]) * distance[b] + half * distance[a]) * window.inverse_depth}};
-    // The first line is on the left where p > 0.
-    const auto is_first_left = p >= V::all(0.0F);
+    HalfPlane<V> lines[2];
+    lines_of<V>(view, region, place, window, c, lines);
+    // One border is on the left and one on the right; the first is on the left where its column is positive.
+    const auto is_first_left = lines[0].column >= lines[1].column;
     const Float sense = V::select(is_first_left, V::all(1.0F), V::all(-1.0F));
     const Border<V> first = border_of<V>(view, window, lines[0], sense);
     const Border<V> second = border_of<V>(view, window, lines[1], -sense);
@@ -282,11 +322,11 @@ std::size_t splat_batches(const BatchView& view, const BatchRegion& region, cons
       __builtin_memcpy(last_batch, batch, used * sizeof *batch);
       batch = last_batch;
     }
-    const Center<V> center = center_of<V>(view, V::load(batch));
-    const Window<V> window = window_of<V>(view, center);
+    const Place<V> place = place_of<V>(view, V::load(batch));
+    const Window<V> window = window_of<V>(view, place);
     unsigned active = ~V::lane_bits(window.outside) & ((2U << (used - 1)) - 1);
     if (active == 0) continue;
-    Borders<V> borders = borders_of<V>(view, region, center, window);
+    Borders<V> borders = borders_of<V>(view, region, place, window);
     const Int is_drawn = ~(window.outside | window.special | borders.special);
     const Int doubtful = draw<V>(view, borders, V::largest(window.rows & is_drawn), stamp);
     const unsigned special = V::lane_bits(~is_drawn | doubtful);
@@ -305,6 +345,33 @@ std::size_t splat_batches(const BatchView& view, const BatchRegion& region, cons
     }
   }
   return seen;
+}
+
+template <class V>
+std::size_t select_inside(const BatchRegion& region, const std::uint32_t* voxels, std::size_t count,
+                          std::uint32_t* inside) {
+  using Int = typename V::Int;
+  constexpr std::size_t lanes = V::lanes;
+  std::size_t kept = 0;
+  for (std::size_t begin = 0; begin < count; begin += lanes) {
+    const std::size_t used = count - begin < lanes ? count - begin : lanes;
+    std::uint32_t last_batch[lanes] = {};
+    const std::uint32_t* batch = voxels + begin;
+    if (used < lanes) {
+      __builtin_memcpy(last_batch, batch, used * sizeof *batch);
+      batch = last_batch;
+    }
+    const Int packed = V::load(batch);
+    Int outside = V::all(0);
+    for (int a = 0; a < 3; ++a) {
+      const Int index = (packed >> (10 * a)) & V::all(1023);
+      outside |= (index < V::all(region.min[a])) | (index > V::all(region.max[a]));
+    }
+    const unsigned bits = ~V::lane_bits(outside) & ((2U << (used - 1)) - 1);
+    V::store_lanes(inside + kept, packed, bits);
+    kept += static_cast<std::size_t>(__builtin_popcount(bits));
+  }
+  return kept;
 }
 
 }  // namespace vantage::simd

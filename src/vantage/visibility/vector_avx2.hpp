@@ -12,6 +12,20 @@ struct VectorAvx2 {
   using Float = __m256;
   using Int = std::int32_t __attribute__((vector_size(32)));
 
+  struct Double {
+    __m256d low, high;
+    friend Double operator*(Double a, Double b) { return {a.low * b.low, a.high * b.high}; }
+    friend Double operator-(Double a, Double b) { return {a.low - b.low, a.high - b.high}; }
+  };
+
+  static Double all(double x) { return {_mm256_set1_pd(x), _mm256_set1_pd(x)}; }
+  static Double to_double(Float x) {
+    return {_mm256_cvtps_pd(_mm256_castps256_ps128(x)), _mm256_cvtps_pd(_mm256_extractf128_ps(x, 1))};
+  }
+  static Float to_float(Double x) { return _mm256_set_m128(_mm256_cvtpd_ps(x.high), _mm256_cvtpd_ps(x.low)); }
+  static Double multiply_add(Double a, Double b, Double c) {
+    return {_mm256_fmadd_pd(a.low, b.low, c.low), _mm256_fmadd_pd(a.high, b.high, c.high)};
+  }
   static Float all(float x) { return _mm256_set1_ps(x); }
   static Int all(std::int32_t x) { return Int(_mm256_set1_epi32(x)); }
   static Int load(const std::uint32_t* from) { return Int(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))); }
@@ -33,6 +47,12 @@ struct VectorAvx2 {
   static Int ones_above(Int counts) { return Int(_mm256_sllv_epi32(_mm256_set1_epi32(-1), __m256i(counts))); }
   static unsigned lane_bits(Int mask) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(__m256i(mask))));
+  }
+  static void store_lanes(std::uint32_t* to, Int x, unsigned bits) {
+    for (int i = 0; i < lanes; ++i) {
+      *to = static_cast<std::uint32_t>(x[i]);
+      to += bits >> i & 1U;
+    }
   }
   static std::int32_t largest(Int x) {
     __m128i half = _mm_max_epi32(_mm256_castsi256_si128(__m256i(x)), _mm256_extracti128_si256(__m256i(x), 1));

@@ -12,6 +12,22 @@ struct VectorAvx512 {
   using Float = __m512;
   using Int = std::int32_t __attribute__((vector_size(64)));
 
+  struct Double {
+    __m512d low, high;
+    friend Double operator*(Double a, Double b) { return {a.low * b.low, a.high * b.high}; }
+    friend Double operator-(Double a, Double b) { return {a.low - b.low, a.high - b.high}; }
+  };
+
+  static Double all(double x) { return {_mm512_set1_pd(x), _mm512_set1_pd(x)}; }
+  static Double to_double(Float x) {
+    return {_mm512_cvtps_pd(_mm512_castps512_ps256(x)), _mm512_cvtps_pd(_mm512_extractf32x8_ps(x, 1))};
+  }
+  static Float to_float(Double x) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(x.low)), _mm512_cvtpd_ps(x.high), 1);
+  }
+  static Double multiply_add(Double a, Double b, Double c) {
+    return {_mm512_fmadd_pd(a.low, b.low, c.low), _mm512_fmadd_pd(a.high, b.high, c.high)};
+  }
   static Float all(float x) { return _mm512_set1_ps(x); }
   static Int all(std::int32_t x) { return Int(_mm512_set1_epi32(x)); }
   static Int load(const std::uint32_t* from) { return Int(_mm512_loadu_si512(from)); }
@@ -32,6 +48,10 @@ struct VectorAvx512 {
   }
   static Int ones_above(Int counts) { return Int(_mm512_sllv_epi32(_mm512_set1_epi32(-1), __m512i(counts))); }
   static unsigned lane_bits(Int mask) { return _mm512_movepi32_mask(__m512i(mask)); }
+  static void store_lanes(std::uint32_t* to, Int x, unsigned bits) {
+    // Compressed in a register: some processors are slow at compressing to memory.
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), __m512i(x)));
+  }
   static std::int32_t largest(Int x) { return _mm512_reduce_max_epi32(__m512i(x)); }
 };
 

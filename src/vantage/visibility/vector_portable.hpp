@@ -10,6 +10,24 @@ struct VectorPortable {
   using Float = float __attribute__((vector_size(16)));
   using Int = std::int32_t __attribute__((vector_size(16)));
 
+  using Pair = double __attribute__((vector_size(16)));
+  /// As many doubles as lanes.
+  struct Double {
+    Pair low, high;
+    friend Double operator*(Double a, Double b) { return {a.low * b.low, a.high * b.high}; }
+    friend Double operator-(Double a, Double b) { return {a.low - b.low, a.high - b.high}; }
+  };
+
+  static Double all(double x) { return {Pair{x, x}, Pair{x, x}}; }
+  static Double to_double(Float x) {
+    return {Pair{static_cast<double>(x[0]), static_cast<double>(x[1])},
+            Pair{static_cast<double>(x[2]), static_cast<double>(x[3])}};
+  }
+  static Float to_float(Double x) {
+    return Float{static_cast<float>(x.low[0]), static_cast<float>(x.low[1]), static_cast<float>(x.high[0]),
+                 static_cast<float>(x.high[1])};
+  }
+  static Double multiply_add(Double a, Double b, Double c) { return {a.low * b.low + c.low, a.high * b.high + c.high}; }
   static Float all(float x) { return Float{x, x, x, x}; }
   static Int all(std::int32_t x) { return Int{x, x, x, x}; }
   static Int load(const std::uint32_t* from) {
@@ -40,6 +58,13 @@ struct VectorPortable {
     unsigned bits = 0;
     for (int i = 0; i < lanes; ++i) bits |= (mask[i] != 0 ? 1U : 0U) << i;
     return bits;
+  }
+  /// Writes the lanes whose bit is set one after the other; there must be room for all lanes.
+  static void store_lanes(std::uint32_t* to, Int x, unsigned bits) {
+    for (int i = 0; i < lanes; ++i) {
+      *to = static_cast<std::uint32_t>(x[i]);
+      to += bits >> i & 1U;
+    }
   }
   static std::int32_t largest(Int x) {
     std::int32_t most = x[0];

@@ -92,10 +92,10 @@ void require_fit(std::span<const View> views, std::span<const Resolution> resolu
 
 struct VisibilityEvaluator::Prepared {
   Prepared(const VoxelMap& voxel_map, InstructionSet instructions)
-      : map(voxel_map), splat_batch(splat_batch_for(instructions)), exposed(voxel_map), normals(voxel_map) {}
+      : map(voxel_map), kernels(splat_kernels_for(instructions)), exposed(voxel_map), normals(voxel_map) {}
 
   const VoxelMap& map;
-  SplatBatch splat_batch;
+  SplatKernels kernels;
   ExposedVoxels exposed;
   SurfaceNormals normals;
   mutable tbb::enumerable_thread_specific<Scratch> scratch;
@@ -104,7 +104,7 @@ struct VisibilityEvaluator::Prepared {
   [[nodiscard]] const std::vector<std::uint32_t>* splat_view(const RangeCamera& camera, const View& view,
                                                              Resolution resolution) const;
   void splat_region(const Pass& pass, const Region& region, const FirstVoxels* first, Scratch& memory) const;
-  void splat_all(const Pass& pass, const Region& region, const std::vector<std::uint32_t>& candidates,
+  void splat_all(const Pass& pass, const BatchRegion& region, std::span<const std::uint32_t> candidates,
                  Scratch& memory) const;
   /// Leaves out the occupied voxels beyond the incidence limit.
   [[nodiscard]] bool counts(const PackedVoxel& voxel, const RangeCamera& camera, const Vec3& axis) const;
@@ -112,33 +112,32 @@ struct VisibilityEvaluator::Prepared {
                                  const Vec3& axis) const;
 };
 
-void VisibilityEvaluator::Prepared::splat_all(const Pass& pass, const Region& region,
-                                              const std::vector<std::uint32_t>& candidates, Scratch& memory) const {
+void VisibilityEvaluator::Prepared::splat_all(const Pass& pass, const BatchRegion& region,
+                                              std::span<const std::uint32_t> candidates, Scratch& memory) const {
   const std::size_t before = memory.visible.size();
-  if (is_batch_region(region)) {
-    memory.visible.resize(before + candidates.size());
-    const std::size_t seen = splat_batch(pass.batch, batch_region(pass.frame, region), candidates.data(),
-                                         candidates.size(), memory.visible.data() + before);
-    memory.visible.resize(before + seen);
-    return;
-  }
-  for (const std::uint32_t voxel : candidates) {
-    if (splat(pass.frame, PackedVoxel{voxel}.index(), memory.coverage)) memory.visible.push_back(voxel);
-  }
+  memory.visible.resize(before + candidates.size());
+  const std::size_t seen =
+      kernels.splat(pass.batch, region, candidates.data(), candidates.size(), memory.visible.data() + before);
+  memory.visible.resize(before + seen);
 }
 
 void VisibilityEvaluator::Prepared::splat_region(const Pass& pass, const Region& region, const FirstVoxels* first,
                                                  Scratch& memory) const {
-  const bool is_whole = region.is_octant() && region.box.size() == map.layout().size;
-  const std::vector<std::uint32_t>* octant = is_whole && !first ? exposed.octant(region.side) : nullptr;
-  if (octant) {
-    splat_all(pass, region, *octant, memory);
-    return;
-  }
-  for (const Region& slice : slices(region)) {
-    memory.candidates.clear();
-    exposed.collect(slice, first, memory.candidates);
-    splat_all(pass, region, memory.candidates, memory);
+  const BatchRegion batch = batch_region(pass.frame, region);
+  const std::vector<std::uint32_t>* octant = first ? nullptr : exposed.octant(region.side);
+  if (!octant) {
+    for (const Region& slice : slices(region)) {
+      memory.candidates.clear();
+      exposed.collect(slice, first, memory.candidates);
+      splat_all(pass, batch, memory.candidates, memory);
+    }
+  } else if (region.box.size() == map.layout().size) {
+    splat_all(pass, batch, *octant, memory);
+  } else {
+    constexpr std::size_t room = 16;
+    memory.candidates.resize(octant->size() + room);
+    const std::size_t inside = kernels.select(batch, octant->data(), octant->size(), memory.candidates.data());
+    splat_all(pass, batch, std::span(memory.candidates.data(), inside), memory);
   }
 }
 
