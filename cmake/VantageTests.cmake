@@ -51,3 +51,12 @@ endif()
 include(VantageExamples)
 include(VantageChecks)
 include(VantageGuards)
+
+# A second evaluator that shares no code with the library checks what `vantage evaluate` says of a dumped map.
+if(VANTAGE_APPS)
+  add_executable(second_evaluator ${PROJECT_SOURCE_DIR}/tests/evaluator/second_evaluator.cpp)
+  target_link_libraries(second_evaluator PRIVATE nlohmann_json::nlohmann_json vantage_build_settings)
+  add_test(NAME second_evaluator.agrees
+    COMMAND ${PROJECT_SOURCE_DIR}/tests/evaluator/check.sh $<TARGET_FILE:vantage> $<TARGET_FILE:second_evaluator>)
+  set_tests_properties(second_evaluator.agrees PROPERTIES LABELS default TIMEOUT 240)
+endif()

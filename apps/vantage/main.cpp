@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
   program.failure_message(CLI::FailureMessage::help);
   vantage::app::add_reconstruct(program);
   vantage::app::add_evaluate(program);
+  vantage::app::add_export(program);
   vantage::app::add_objects(program);
   try {
     program.parse(argc, argv);

@@ -66,7 +66,10 @@ class VoxelMap {
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
   [[nodiscard]] const IndexBox& enclosure() const { return enclosure_; }
-  [[nodiscard]] Vec3 enclosure_center() const { return grid_.box(enclosure_).center(); }
+  /// Rounded to a nanometre, so that a scene around the origin has its center there and symmetric views stay symmetric.
+  [[nodiscard]] Vec3 enclosure_center() const {
+    return (grid_.box(enclosure_).center() * 1e9).array().round().matrix() / 1e9;
+  }
 
   /// Indices are the scene's. Everything outside the enclosure is empty.
   [[nodiscard]] Label label(const Index3& index) const;
