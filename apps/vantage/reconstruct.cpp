@@ -35,48 +35,68 @@ void print_progress(const ScanRecord& record) {
       1000 * record.timings.total(), record.merged ? record.reason : "NOT MERGED: " + record.verdict);
 }
 
+RunDescription describe_run(const Request& request, const std::string& object_name, const SimulatedObject& object) {
+  RunDescription description;
+  description.command = "reconstruct";
+  description.object = object_name;
+  description.program = VANTAGE_VERSION;
+  description.camera = request.options.range_camera();
+  description.candidates = request.options.candidate_views();
+  description.candidates_text = request.options.candidates;
+  description.truth = object.scanner().mesh();
+  return description;
+}
+
+RunSummary summarise(const Request& request, const std::string& object_name, const SimulatedObject& object,
+                     const SimulatedRun& run) {
+  RunSummary summary;
+  summary.object = object_name;
+  summary.stop_reason = run.stop_reason;
+  summary.seed = request.options.seed;
+  const PointCloud cloud = object_cloud(run.model);
+  const Accuracy accuracy = object.truth().accuracy(cloud);
+  const Completeness completeness = object.truth().completeness(cloud);
+  summary.accuracy_rms = accuracy.root_mean_square;
+  summary.accuracy_95 = accuracy.percentile_95;
+  summary.completeness = completeness.visible;
+  summary.completeness_all = completeness.all;
+  return summary;
+}
+
 void reconstruct(const Request& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
   request.options.validate();
   const ObjectSource source = find_object(request.object);
-  RunFolder folder(request.out.empty() ? std::filesystem::path("runs") / source.name
-                                       : std::filesystem::path(request.out));
   const SimulatedObject object(source.mesh, request.options.size.value_or(source.default_size), request.options);
+  RunFolder folder(
+      request.out.empty() ? std::filesystem::path("runs") / source.name : std::filesystem::path(request.out),
+      describe_run(request, source.name, object));
 
   catch_interrupts();
   RunObserver observer;
   observer.interrupted = was_interrupted;
-  observer.on_scan = [&](const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan*) {
-    folder.add_scan(record, scan, model.map);
+  observer.on_scan = [&](const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
+    folder.add_scan(record, scan, model, plan);
     if (!request.program.quiet) print_progress(record);
   };
   const SimulatedRun run = simulate(object, request.options, observer);
 
-  RunResult result{run.model, {}, request.options};
-  result.summary.object = source.name;
-  result.summary.stop_reason = run.stop_reason;
-  result.summary.seed = request.options.seed;
-  const Accuracy accuracy = object.truth().accuracy(run.model.surface.cloud());
-  const Completeness completeness = object.truth().completeness(run.model.surface.cloud());
-  result.summary.accuracy_rms = accuracy.root_mean_square;
-  result.summary.accuracy_95 = accuracy.percentile_95;
-  result.summary.completeness = completeness.visible;
-  result.summary.completeness_all = completeness.all;
-  folder.finish(result, seconds_since(start), request.report);
-  const ScanRecord& last = run.model.scans.back();
+  const RunSummary summary = summarise(request, source.name, object, run);
+  folder.finish(run.model, summary, std::nullopt, seconds_since(start),
+                request.report ? RunPictures::mesh_and_report : RunPictures::none);
   if (request.program.json) {
-    fmt::print("{}\n", summary_json(run.model, result.summary).dump(2));
-  } else {
-    fmt::print(
-        "{}: {} scans, {:.2f} % of the visible surface, {} occupied voxels, quality {:.3f}, {:.2f} m travelled, {:.2f} "
-        "s\n",
-        source.name, run.model.scans.size(), 100 * last.coverage.value_or(0), last.labels.occupied, last.mean_quality,
-        last.distance, seconds_since(start));
-    fmt::print("{}: {}\n", run.stop_reason == "interrupted" ? "interrupted, kept what was scanned" : "finished",
-               run.stop_reason);
-    fmt::print("written to {}{}\n", folder.path().string(), request.report ? "; open report.html there" : "");
+    fmt::print("{}\n", summary_json(run.model, summary).dump(2));
+    return;
   }
+  const ScanRecord& last = run.model.scans.back();
+  fmt::print(
+      "{}: {} scans, {:.2f} % of the visible surface, {} occupied voxels, quality {:.3f}, {:.2f} m travelled, {:.2f} "
+      "s\n",
+      source.name, run.model.scans.size(), 100 * last.coverage.value_or(0), last.labels.occupied, last.mean_quality,
+      last.distance, seconds_since(start));
+  fmt::print("{}: {}\n", run.stop_reason == "interrupted" ? "kept what was scanned" : "finished", run.stop_reason);
+  fmt::print("written to {}{}\n", folder.path().string(), request.report ? "; open report.html there" : "");
 }
 
 }  // namespace

@@ -1,26 +1,84 @@
 #include "vantage/io/run_folder.hpp"
 
+#include <fmt/format.h>
+
 #include "vantage/core/error.hpp"
 #include "vantage/io/atomic_file.hpp"
 #include "vantage/io/map_file.hpp"
 #include "vantage/io/point_cloud_file.hpp"
+#include "vantage/io/report.hpp"
+#include "vantage/io/static_report.hpp"
 
 namespace vantage {
 
-RunFolder::RunFolder(std::filesystem::path path) : path_(std::move(path)) {
-  std::error_code error;
-  std::filesystem::create_directories(path_ / "scans", error);
-  if (error) throw Error(concat("cannot create the output folder ", path_.string(), ": ", error.message()));
+PointCloud object_cloud(const ObjectModel& model) {
+  const PointCloud& all = model.surface.cloud();
+  PointCloud inside;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (model.map.enclosure().contains(model.map.grid().index_of(all.points[i]))) {
+      inside.add(all.points[i], all.normals[i]);
+    }
+  }
+  return inside;
 }
 
-void RunFolder::add_scan(const ScanRecord&, const Scan&, const VoxelMap&) {}
+RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
+    : path_(std::move(path)), description_(std::move(description)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_ / "scans", error);
+  if (error) throw Error(fmt::format("cannot create the output folder {}: {}", path_.string(), error.message()));
+  data_.command = description_.command;
+  data_.object = description_.object;
+  data_.program = description_.program;
+  data_.options = description_.options;
+  data_.camera = description_.camera;
+  data_.candidates = description_.candidates;
+  data_.candidates_text = description_.candidates_text;
+}
 
-void RunFolder::finish(const RunResult& result, double total_seconds, bool) {
-  write_file_atomically(path_ / "summary.json", summary_json(result.model, result.summary).dump(2) + "\n");
-  write_file_atomically(path_ / "views.csv", views_csv(result.model.scans));
-  write_file_atomically(path_ / "timings.json", timings_json(result.model.scans, total_seconds).dump(2) + "\n");
-  write_map(result.model.map, path_ / "map.nrrd");
-  write_cloud_ply(path_ / "model.ply", result.model.surface.cloud());
+void RunFolder::add_scan(const ScanRecord& record, const Scan& /*scan*/, const ObjectModel& model, const Plan* plan) {
+  data_.add_scan(record, model, plan);
+  const int middle = (model.map.enclosure().min.z() + model.map.enclosure().max.z()) / 2;
+  layers_.emplace_back(record.scan, label_layer(model.map, middle));
+}
+
+void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
+                       double total_seconds, RunPictures pictures) {
+  write_map(model.map, path_ / "map.nrrd");
+  write_cloud_ply(path_ / "model.ply", object_cloud(model));
+  write_file_atomically(path_ / "config.yaml", description_.config);
+  write_file_atomically(path_ / "views.csv", views_csv(model.scans));
+  write_file_atomically(path_ / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
+  write_file_atomically(path_ / "summary.json", summary_json(model, summary).dump(2) + "\n");
+  if (pictures == RunPictures::mesh_and_report) write_report(model, summary, next, total_seconds);
+}
+
+void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
+                             double total_seconds) {
+  const PointCloud cloud = object_cloud(model);
+  ReportData pictures;
+  pictures.object = description_.object;
+  pictures.command = description_.command;
+  pictures.program = description_.program;
+  pictures.options = description_.options;
+  pictures.camera = description_.camera;
+  pictures.candidates = description_.candidates;
+  pictures.scans = model.scans;
+  pictures.stop_reason = summary.stop_reason;
+  pictures.map = &model.map;
+  pictures.cloud = &cloud;
+  pictures.layers = layers_;
+  pictures.seconds = total_seconds;
+
+  data_.seed = summary.seed;
+  data_.simulated = description_.truth.has_value();
+  data_.grid = model.map.grid();
+  data_.enclosure = model.map.enclosure();
+  if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
+  if (description_.truth) data_.truth = *description_.truth;
+  data_.finish(model, summary.stop_reason);
+  data_.static_html = static_report_body(pictures);
+  write_file_atomically(path_ / "report.html", report_html(data_));
 }
 
 }  // namespace vantage

@@ -2,33 +2,53 @@
 
 #include <filesystem>
 
+#include "vantage/io/report_data.hpp"
+#include "vantage/io/run_data.hpp"
 #include "vantage/io/run_files.hpp"
-#include "vantage/reconstruction/options.hpp"
 
 namespace vantage {
 
-/// All that a finished run leaves behind.
-struct RunResult {
-  const ObjectModel& model;
-  RunSummary summary;
-  ReconstructOptions options;
+/// What stays the same during a run.
+struct RunDescription {
+  std::string command;                                       // what makes it: reconstruct, plan
+  std::string object;                                        // what people call it
+  std::string program;                                       // version
+  std::vector<std::pair<std::string, std::string>> options;  // name and value, in the order to be shown
+  std::string config;                                        // config.yaml: all that is needed to repeat the run
+  RangeCamera camera;
+  Candidates candidates;
+  std::string candidates_text;
+  std::optional<TriangleMesh> truth;  // simulation only
 };
+
+enum class RunPictures { none, mesh_and_report };
 
 /// The output folder of a reconstruction (spec, section 10). Scans are written as they are taken; the rest at the end.
 /// Every file appears under its name only when it is complete.
 class RunFolder {
  public:
   /// Creates the folder. Throws Error where that is not possible.
-  explicit RunFolder(std::filesystem::path path);
+  RunFolder(std::filesystem::path path, RunDescription description);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Writes `scans/scan-NNN.*` of a scan with the pose that registration gave it.
-  void add_scan(const ScanRecord& record, const Scan& scan, const VoxelMap& map);
-  /// Writes everything else; `mesh.ply` and `report.html` only where `with_report` asks for them.
-  void finish(const RunResult& result, double total_seconds, bool with_report);
+  /// Notes a scan for the report and writes it to `scans/`: what the sensor measured, and the registered pose (the
+  /// believed one where registration failed). `model` as it is after the scan.
+  void add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan);
+  /// Writes everything else.
+  void finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
+              double total_seconds, RunPictures pictures);
 
  private:
+  void write_report(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
+                    double total_seconds);
+
   std::filesystem::path path_;
+  RunDescription description_;
+  RunData data_;
+  std::vector<std::pair<int, LabelLayer>> layers_;
 };
+
+/// Points of the fused cloud that lie in the object's enclosure.
+[[nodiscard]] PointCloud object_cloud(const ObjectModel& model);
 
 }  // namespace vantage
