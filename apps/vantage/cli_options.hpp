@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,15 +44,6 @@ inline void add_options(CLI::App& command, const std::vector<OptionField>& field
 template <class Options>
 void add_options(CLI::App& command, Options& options) {
   add_options(command, option_fields(options));
-}
-
-/// Only the named fields.
-template <class Options>
-void add_options(CLI::App& command, Options& options, const std::set<std::string>& names) {
-  OptionAdder add(command);
-  describe(options, [&](const std::string& name, auto& member, const std::string& unit, const std::string& meaning) {
-    if (names.contains(name)) add(name, member, unit, meaning);
-  });
 }
 
 }  // namespace vantage::app

@@ -6,40 +6,31 @@
 
 #include "cli_options.hpp"
 #include "commands.hpp"
+#include "plan_table.hpp"
 #include "program_options.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/io/map_file.hpp"
+#include "vantage/reconstruction/options.hpp"
 
 namespace vantage::app {
 namespace {
 
+struct Place {
+  Vec3 current{0, 0, 2};
+};
+
+template <class Field>
+void describe(Place& place, Field&& field) {
+  field("current", place.current, "m", "where the sensor is now");
+}
+
 struct Request {
   std::string map;
-  Vec3 current{0, 0, 2};
   int top = 10;
+  Place place;
   ReconstructOptions options;
   ProgramOptions program;
 };
-
-nlohmann::ordered_json view_json(const Evaluation& e) {
-  const Vec3 position = e.view.position();
-  return {{"index", e.candidate},
-          {"position", {position.x(), position.y(), position.z()}},
-          {"feasible", e.feasible},
-          {"reason", e.reason},
-          {"columns", e.resolution.columns},
-          {"rows", e.resolution.rows},
-          {"n_oc", e.seen.occupied},
-          {"n_op", e.seen.occplane},
-          {"n_um", e.seen.unmarked},
-          {"n_occluded", e.seen.occluded},
-          {"x_oc", e.factors.x_oc},
-          {"x_op", e.factors.x_op},
-          {"f_area", e.factors.f_area},
-          {"f_navigation", e.factors.f_navigation},
-          {"f_quality", e.factors.f_quality},
-          {"f_occlusion", e.factors.f_occlusion},
-          {"utility", e.utility}};
-}
 
 /// Every candidate, infeasible ones too, in the order of their indices.
 std::vector<Evaluation> evaluate_all(const VoxelMap& map, const Planner& planner, const View& current) {
@@ -69,25 +60,9 @@ void print_json(const VoxelMap& map, const std::vector<Evaluation>& evaluations)
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_table(const VoxelMap& map, std::vector<Evaluation> evaluations, int top) {
+void print_labels(const VoxelMap& map) {
   for (const Label label : all_labels) fmt::print("{} {}  ", map.count(label), name(label));
   fmt::print(" mean quality {:.3f}\n\n", map.mean_quality());
-  fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>8}\n", "view", "position [m]", "n_oc", "n_op",
-             "n_um", "f_area", "f_nav", "f_qual", "f_occl", "utility");
-  rank(evaluations);
-  int printed = 0;
-  for (const Evaluation& e : evaluations) {
-    if (!e.feasible) continue;
-    if (++printed > top) break;
-    const Vec3 p = e.view.position();
-    fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.5f}\n", e.candidate,
-               fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z()), e.seen.occupied, e.seen.occplane,
-               e.seen.unmarked, e.factors.f_area, e.factors.f_navigation, e.factors.f_quality, e.factors.f_occlusion,
-               e.utility);
-  }
-  for (const Evaluation& e : evaluations) {
-    if (!e.feasible) fmt::print("{:>5} not feasible: {}\n", e.candidate, e.reason);
-  }
 }
 
 void evaluate(const Request& request) {
@@ -96,12 +71,13 @@ void evaluate(const Request& request) {
   const VoxelMap map = read_map(request.map);
   const Planner planner(candidates_from_text(request.options.candidates, map.enclosure_center()),
                         request.options.range_camera(), request.options.planner_options());
-  const View current{Pose(Eigen::Translation3d(request.current))};
+  const View current{Pose(Eigen::Translation3d(request.place.current))};
   const std::vector<Evaluation> evaluations = evaluate_all(map, planner, current);
   if (request.program.json) {
     print_json(map, evaluations);
   } else {
-    print_table(map, evaluations, request.top);
+    print_labels(map);
+    print_views(evaluations, request.top);
   }
 }
 
@@ -111,12 +87,12 @@ void add_evaluate(CLI::App& program) {
   auto request = std::make_shared<Request>();
   CLI::App* command = program.add_subcommand("evaluate", "Evaluate candidate views on a map from a file");
   command->add_option("map", request->map, "map file, NAME.nrrd with NAME.ply beside it")->required();
-  OptionAdder add(*command);
-  add("current", request->current, "m", "where the sensor is now");
-  add("top", request->top, "", "views to print, best first");
-  add_options(*command, request->options,
-              {"candidates", "camera", "depth-range", "max-incidence", "rays", "utility", "alpha-oc", "alpha-op", "rho",
-               "navigation", "body-radius", "workspace", "obstacles"});
+  command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
+  std::vector<OptionField> fields = option_fields(request->place);
+  for (OptionField& field : fields_named(option_fields(request->options), planning_option_names())) {
+    fields.push_back(std::move(field));
+  }
+  add_options(*command, std::as_const(fields));
   add_program_options(*command, request->program);
   command->callback([request] { evaluate(*request); });
 }

@@ -17,7 +17,9 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::help);
   vantage::app::add_reconstruct(program);
+  vantage::app::add_plan(program);
   vantage::app::add_evaluate(program);
+  vantage::app::add_config(program);
   vantage::app::add_export(program);
   vantage::app::add_objects(program);
   try {

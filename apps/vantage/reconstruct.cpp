@@ -9,6 +9,7 @@
 #include "interrupt.hpp"
 #include "object_source.hpp"
 #include "program_options.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/io/run_folder.hpp"
 #include "vantage/reconstruction/simulate.hpp"
 
@@ -40,6 +41,11 @@ RunDescription describe_run(const Request& request, const std::string& object_na
   description.command = "reconstruct";
   description.object = object_name;
   description.program = VANTAGE_VERSION;
+  ReconstructOptions options = request.options;
+  const std::vector<OptionField> fields = option_fields(options);
+  for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
+  description.config =
+      fmt::format("# vantage reconstruct {} --config THIS_FILE\n{}", object_name, options_as_yaml(fields));
   description.camera = request.options.range_camera();
   description.candidates = request.options.candidate_views();
   description.candidates_text = request.options.candidates;

@@ -107,6 +107,14 @@ std::string nearest_name(std::string_view written, const std::vector<std::string
   return best;
 }
 
+std::vector<OptionField> fields_named(const std::vector<OptionField>& fields, const std::vector<std::string>& names) {
+  std::vector<OptionField> chosen;
+  for (const OptionField& field : fields) {
+    if (std::find(names.begin(), names.end(), field.name) != names.end()) chosen.push_back(field);
+  }
+  return chosen;
+}
+
 void set_option(const OptionField& field, std::string_view text, const std::string& place) {
   if (field.set(text)) return;
   throw InputError(fmt::format("{} = {}: must be {}", place, in_quotes(text), field.expected));

@@ -75,6 +75,10 @@ template <class Options>
   return std::move(collector.fields);
 }
 
+/// Those of the fields that have one of the names, in the order of the fields.
+[[nodiscard]] std::vector<OptionField> fields_named(const std::vector<OptionField>& fields,
+                                                    const std::vector<std::string>& names);
+
 /// Sets an option from text. Throws InputError "PLACE = 'TEXT': must be ...".
 void set_option(const OptionField& field, std::string_view text, const std::string& place);
 

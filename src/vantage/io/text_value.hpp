@@ -146,9 +146,9 @@ struct TextValue<std::optional<T>> {
   }
   static std::optional<std::optional<T>> parse(std::string_view text) {
     if (text == none) return std::optional<T>();
-    const auto value = TextValue<T>::parse(text);
+    std::optional<T> value = TextValue<T>::parse(text);
     if (!value) return std::nullopt;
-    return std::optional<T>(*value);
+    return std::make_optional(std::move(value));
   }
   static std::string expected() { return TextValue<T>::expected() + ", or none"; }
 };

@@ -88,6 +88,27 @@ RayChoice rays_from_text(const std::string& text) {
   return {RayChoice::Kind::fixed, resolution_from_text("rays", text)};
 }
 
+std::vector<std::string> planning_option_names() {
+  return {"camera",
+          "depth-range",
+          "max-incidence",
+          "candidates",
+          "body-radius",
+          "workspace",
+          "obstacles",
+          "search",
+          "rays",
+          "multi-resolution-b",
+          "multi-resolution-stages",
+          "multi-resolution-columns",
+          "utility",
+          "alpha-oc",
+          "alpha-op",
+          "rho",
+          "navigation",
+          "stop-occplane"};
+}
+
 void ReconstructOptions::validate() const {
   require(!size || (*size > 0 && std::isfinite(*size)), "size = ", size.value_or(0), " m: must be positive");
   require((depth_noise.array() >= 0).all() && depth_noise.allFinite(), "depth-noise = ", depth_noise.transpose(),

@@ -105,6 +105,9 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("stop-occplane", o.stop_occplane, "voxels", "stop when no view sees more occplane voxels than this");
 }
 
+/// The options that decide how a view is planned on a given map: candidates, camera, utility, search and reach.
+[[nodiscard]] std::vector<std::string> planning_option_names();
+
 /// Numbers separated by commas, as many as asked for; throws InputError that names the option.
 [[nodiscard]] std::vector<double> numbers_from_text(const std::string& option, const std::string& text,
                                                     std::size_t count);

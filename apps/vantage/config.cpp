@@ -1,0 +1,44 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "vantage/io/options.hpp"
+#include "vantage/io/scan_folder.hpp"
+#include "vantage/reconstruction/from_scans.hpp"
+#include "vantage/reconstruction/options.hpp"
+
+namespace vantage::app {
+namespace {
+
+void print_section(const std::string& title, const std::vector<OptionField>& fields, bool markdown) {
+  if (markdown) {
+    fmt::print("## {}\n\n{}\n", title, options_as_markdown(fields));
+  } else {
+    fmt::print("# {}\n{}\n", title, options_as_yaml(fields));
+  }
+}
+
+}  // namespace
+
+void add_config(CLI::App& program) {
+  auto markdown = std::make_shared<bool>(false);
+  CLI::App* command = program.add_subcommand(
+      "config", "Print every option with its default, unit and meaning, as a configuration file");
+  command->add_flag("--markdown", *markdown, "as tables for the documentation");
+  command->callback([markdown] {
+    ReconstructOptions reconstruct;
+    ScanPlanOptions plan;
+    ScanFolderOptions folder;
+    if (*markdown) {
+      fmt::print(
+          "# Options\n\nMade by `vantage config --markdown`. Every option is a key of a file given with `--config`, "
+          "and an option of the command line with `--` before it.\n\n");
+    }
+    print_section("vantage reconstruct", option_fields(reconstruct), *markdown);
+    print_section("vantage plan: the scene", option_fields(plan), *markdown);
+    print_section("vantage plan: reading scans", option_fields(folder), *markdown);
+  });
+}
+
+}  // namespace vantage::app

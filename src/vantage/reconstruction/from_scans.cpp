@@ -1,0 +1,81 @@
+#include "vantage/reconstruction/from_scans.hpp"
+
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr int default_voxels_along_box = 55;  // as in the paper
+constexpr double margin = 0.05;               // around all points, as a share of their extent
+
+Box3 box_around(const std::vector<PendingScan>& scans) {
+  Box3 box;
+  for (const PendingScan& scan : scans) {
+    for (const Vec3& point : points_of(scan.read()).points) box.extend(scan.believed.world_from_sensor * point);
+  }
+  require(!box.isEmpty(), "scans: none of the ", scans.size(), " scans has a single measured point");
+  const Vec3 grown = margin * box.sizes();
+  return {box.min() - grown, box.max() + grown};
+}
+
+Box3 wanted_box(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
+  if (!options.box) return box_around(scans);
+  const Vec3 center = options.box->head<3>();
+  const Vec3 half = 0.5 * options.box->tail<3>();
+  return {center - half, center + half};
+}
+
+}  // namespace
+
+void ScanPlanOptions::validate() const {
+  if (box) {
+    require((box->tail<3>().array() > 0).all(), "box = ", box->transpose(),
+            ": the sizes (last three) must be positive");
+  }
+  require(!voxel || *voxel > 0, "voxel = ", voxel.value_or(0), " m: must be positive");
+  require(!radius || *radius > 0, "radius = ", radius.value_or(0), " m: must be positive");
+  require(registration == "icp" || registration == "none", "registration = '", registration,
+          "': must be icp or none (the truth is known in simulation only)");
+}
+
+Vec3 sensor_position(const Scan& scan, const View& view) {
+  const auto* lines = std::get_if<PointScan>(&scan);
+  if (lines == nullptr || lines->origins.empty()) return view.position();
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& origin : lines->origins) sum += origin;
+  return view.world_from_sensor * Vec3(sum / static_cast<double>(lines->origins.size()));
+}
+
+ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
+  options.validate();
+  require(!scans.empty(), "scans: there are none");
+  const Box3 box = wanted_box(scans, options);
+  ScanScene fitted;
+  fitted.scene.center = box.center();
+  fitted.scene.voxel_length = options.voxel.value_or(box.sizes().maxCoeff() / default_voxels_along_box);
+  const Vec3 voxels = (box.sizes() / fitted.scene.voxel_length).array() - 1e-9;
+  require(voxels.maxCoeff() < 1e6, "box of ", box.sizes().transpose(), " m with voxels of ", fitted.scene.voxel_length,
+          " m does not fit in memory: use longer voxels");
+  fitted.scene.enclosure_size = voxels.array().ceil().matrix().cast<int>().cwiseMax(1);
+  fitted.scene.scene_size = fitted.scene.enclosure_size;
+  fitted.scene.validate();
+
+  double distance = 0;
+  std::size_t hits = 0;
+  for (const PendingScan& pending : scans) {
+    const Scan scan = pending.read();
+    distance += (sensor_position(scan, pending.believed) - box.center()).norm();
+    for (const Vec3& point : points_of(scan).points) {
+      hits += box.contains(pending.believed.world_from_sensor * point) ? 1 : 0;
+    }
+  }
+  require(hits > 0, "box: none of the ", scans.size(), " scans has a point in the box around (",
+          box.center().transpose(), ") of size (", box.sizes().transpose(),
+          ") m; `vantage doctor` tells whether poses, units or the box are wrong");
+  fitted.radius = options.radius.value_or(distance / static_cast<double>(scans.size()));
+  return fitted;
+}
+
+}  // namespace vantage
