@@ -60,6 +60,13 @@ RangeCamera camera_for(const Request& request, const ScanSet& set) {
   return camera;
 }
 
+std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& fitted) {
+  if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
+  RegistrationOptions registration;
+  registration.search_radius = options.pose_error;
+  return std::make_unique<IcpRegistrar>(registration, fitted.region);
+}
+
 void plan(Request& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
@@ -83,9 +90,7 @@ void plan(Request& request) {
   std::optional<RunFolder> folder;
   if (!request.out.empty()) folder.emplace(request.out, description);
 
-  const std::unique_ptr<Registrar> registrar = request.plan.registration == "icp"
-                                                   ? std::unique_ptr<Registrar>(std::make_unique<IcpRegistrar>())
-                                                   : std::make_unique<TrustingRegistrar>();
+  const std::unique_ptr<Registrar> registrar = make_registrar(request.plan, fitted);
   ObjectModel model(fitted.scene, fitted.scene.voxel_length / 4);
   View current;
   catch_interrupts();

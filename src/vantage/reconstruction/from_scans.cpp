@@ -36,6 +36,8 @@ void ScanPlanOptions::validate() const {
   }
   require(!voxel || *voxel > 0, "voxel = ", voxel.value_or(0), " m: must be positive");
   require(!radius || *radius > 0, "radius = ", radius.value_or(0), " m: must be positive");
+  require(pose_error > 0, "pose-error = ", pose_error, " m: must be positive; use registration none for exact poses");
+  require(surroundings >= 0, "surroundings = ", surroundings, ": must not be negative");
   require(registration == "icp" || registration == "none", "registration = '", registration,
           "': must be icp or none (the truth is known in simulation only)");
 }
@@ -61,6 +63,9 @@ ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions
   fitted.scene.enclosure_size = voxels.array().ceil().matrix().cast<int>().cwiseMax(1);
   fitted.scene.scene_size = fitted.scene.enclosure_size;
   fitted.scene.validate();
+
+  const Vec3 around = Vec3::Constant(options.surroundings * box.sizes().maxCoeff());
+  fitted.region = Box3(box.min() - around, box.max() + around);
 
   double distance = 0;
   std::size_t hits = 0;

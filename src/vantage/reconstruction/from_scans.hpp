@@ -15,6 +15,8 @@ struct ScanPlanOptions {
   std::optional<double> radius;      // of the view sphere, metres; the sensor's mean distance if not given
   int views = 80;                    // on the view sphere
   std::string registration = "icp";  // icp or none
+  double pose_error = 0.05;          // metres; poses are off by no more than this
+  double surroundings = 0.5;         // around the box, as a share of its longest side: what registration may use
 
   void validate() const;
 };
@@ -26,6 +28,9 @@ void describe(ScanPlanOptions& o, Field&& field) {
   field("radius", o.radius, "m", "of the view sphere; the sensor's mean distance from the box if not given");
   field("views", o.views, "", "candidates on the view sphere: 20*4^k");
   field("registration", o.registration, "", "icp, or none to take the poses as they are");
+  field("pose-error", o.pose_error, "m", "how far off the poses may be at most");
+  field("surroundings", o.surroundings, "box sides",
+        "how far around the box things stand still, so that registration may use them");
 }
 
 /// A scan that is still on disk, with the pose that the robot gave it.
@@ -39,6 +44,7 @@ struct PendingScan {
 struct ScanScene {
   SceneOptions scene;
   double radius = 1;
+  Box3 region;  // what registration uses: the box and its surroundings
 
   [[nodiscard]] Candidates candidates(int views) const { return view_sphere(views, radius, scene.center); }
 };

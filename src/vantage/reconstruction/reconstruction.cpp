@@ -18,6 +18,14 @@ LabelCounts label_counts(const VoxelMap& map) {
           map.count(Label::occluded), map.count(Label::occplane)};
 }
 
+void merge(ModelSurface& surface, const Scan& scan, const PointCloud& points, const View& view) {
+  if (const auto* image = std::get_if<ImageScan>(&scan)) {
+    surface.merge(points, image->image, view.world_from_sensor);
+  } else {
+    surface.merge(points, view.world_from_sensor);
+  }
+}
+
 }  // namespace
 
 void Budget::validate() const {
@@ -35,7 +43,7 @@ ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Re
 
   auto start = Clock::now();
   const PointCloud points = points_of(scan);
-  const Located located = registrar.locate(model.surface, points, believed);
+  const Located located = registrar.locate(model.surface, scan, points, believed);
   record.registered = located.view;
   record.merged = located.accepted;
   record.overlap = located.overlap;
@@ -46,7 +54,7 @@ ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Re
   start = Clock::now();
   if (located.accepted) {
     record.new_occupied = integrate(model.map, scan, located.view, quality).new_occupied;
-    model.surface.merge(points, located.view.world_from_sensor);
+    merge(model.surface, scan, points, located.view);
   }
   record.labels = label_counts(model.map);
   record.mean_quality = model.map.mean_quality();

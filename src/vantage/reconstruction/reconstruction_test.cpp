@@ -91,7 +91,7 @@ class Unreliable : public Robot, public Registrar {
   [[nodiscard]] bool move_to(const View& view) override { return ++moves_ % 3 != 0 && robot_.move_to(view); }
   [[nodiscard]] RangeImage take_range_image() override { return robot_.take_range_image(); }
   [[nodiscard]] View view() const override { return robot_.view(); }
-  [[nodiscard]] Located locate(const ModelSurface&, const PointCloud&, const View& believed) override {
+  [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View& believed) override {
     const bool accepted = ++scans_ % 4 != 0;
     return {believed, accepted, 0.5, 0.001, accepted ? "registered" : "insufficient_overlap", ""};
   }

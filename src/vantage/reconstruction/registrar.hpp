@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "vantage/core/point_cloud.hpp"
+#include "vantage/reconstruction/scan.hpp"
 #include "vantage/registration/registration.hpp"
 #include "vantage/sensor/view.hpp"
 
@@ -27,15 +29,15 @@ class Registrar {
   Registrar& operator=(const Registrar&) = delete;
   virtual ~Registrar() = default;
 
-  /// `model` holds all scans merged so far; the first scan meets an empty one.
-  [[nodiscard]] virtual Located locate(const ModelSurface& model, const PointCloud& scan_in_sensor,
+  /// `model` holds all scans merged so far; the first scan meets an empty one. `points` are those of the scan.
+  [[nodiscard]] virtual Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                        const View& believed) = 0;
 };
 
 /// Takes the robot's word for its pose.
 class TrustingRegistrar : public Registrar {
  public:
-  [[nodiscard]] Located locate(const ModelSurface&, const PointCloud&, const View& believed) override {
+  [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View& believed) override {
     return {believed, true, 1, 0, "believed", "the robot's own pose"};
   }
 };
@@ -44,7 +46,7 @@ class TrustingRegistrar : public Registrar {
 class TruthRegistrar : public Registrar {
  public:
   explicit TruthRegistrar(std::function<View()> true_view) : true_view_(std::move(true_view)) {}
-  [[nodiscard]] Located locate(const ModelSurface&, const PointCloud&, const View&) override {
+  [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View&) override {
     return {true_view_(), true, 1, 0, "truth", "the simulation's true pose"};
   }
 
@@ -55,12 +57,18 @@ class TruthRegistrar : public Registrar {
 /// Moves the believed pose to where the scan fits the model best; the first scan stays where it is believed to be.
 class IcpRegistrar : public Registrar {
  public:
-  explicit IcpRegistrar(const RegistrationOptions& options = {}) : options_(options) { options_.validate(); }
-  [[nodiscard]] Located locate(const ModelSurface& model, const PointCloud& scan_in_sensor,
+  /// Only points in `region` (world frame, by the believed pose) take part where it is given: what is known to stand
+  /// still.
+  explicit IcpRegistrar(const RegistrationOptions& options = {}, const std::optional<Box3>& region = {})
+      : options_(options), region_(region) {
+    options_.validate();
+  }
+  [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override;
 
  private:
   RegistrationOptions options_;
+  std::optional<Box3> region_;
 };
 
 }  // namespace vantage
