@@ -19,6 +19,10 @@ vantage_check(Repository.IncludesObeyTheLayers ${python} ${repository}/layers.py
 vantage_check(Repository.LayerCheckCatchesForbiddenIncludes ${python} ${repository}/layers_test.py)
 vantage_check(Repository.FilesAreShortAndFitAnyMachine ${python} ${repository}/repository.py .)
 vantage_check(Repository.FileCheckFindsWhatItShould ${python} ${repository}/repository_test.py)
+vantage_check(Repository.DocumentCheckFindsWhatItShould ${python} ${repository}/documents_test.py)
+if(VANTAGE_APPS)
+  vantage_check(Repository.DocumentsNameWhatExists ${python} ${repository}/documents.py . $<TARGET_FILE:vantage>)
+endif()
 
 set(consumer ${CMAKE_COMMAND} -DCONSUMER=${PROJECT_SOURCE_DIR}/tests/consumer -DCXX=${CMAKE_CXX_COMPILER})
 set(check -P ${PROJECT_SOURCE_DIR}/tests/consumer/check.cmake)

@@ -14,7 +14,8 @@ class FakeProgram(documents.Program):
         super().__init__(path=None)
 
     def output(self, *arguments):
-        return {("--help",): "plan  --version", ("plan", "--help"): "  --top N  how many"}.get(arguments)
+        return {("--help",): "  --version\n  plan  says where to look\n", ("plan", "--help"): "  --top N  how many",
+                ("config", "--markdown"): "| top | 5 |\n"}.get(arguments)
 
 
 class Documents(unittest.TestCase):
@@ -38,6 +39,15 @@ class Documents(unittest.TestCase):
     def test_links_to_missing_files_are_found(self):
         self.assertEqual([], self.messages("[a](there.md#part) [b](https://example.org/x)"))
         self.assertEqual(["a.md:1: link to gone.md, which is not there"], self.messages("[a](gone.md)"))
+
+    def test_the_page_of_options_is_what_the_program_prints(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder, "options.md")
+            self.assertEqual(1, len(documents.check_options(page, FakeProgram())))
+            page.write_text("| top | 4 |\n", encoding="utf-8")
+            self.assertEqual(1, len(documents.check_options(page, FakeProgram())))
+            page.write_text("| top | 5 |\n", encoding="utf-8")
+            self.assertEqual([], documents.check_options(page, FakeProgram()))
 
 
 if __name__ == "__main__":
