@@ -6,8 +6,11 @@
 #include <map>
 #include <utility>
 
+#include "vantage/candidates/candidates.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/sensor/sight_line.hpp"
 #include "vantage/simulation/mesh_tools.hpp"
+#include "vantage/simulation/range_scanner.hpp"
 
 namespace vantage {
 namespace {
@@ -33,6 +36,24 @@ TEST_P(Objects, AreClosedAndFaceOutwards) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     ASSERT_GT(area_vector(mesh, i).norm(), 1e-12) << "triangle " << i << " is degenerate";
   }
+}
+
+TEST_P(Objects, ShowTheirFrontsFromAllSides) {
+  // A part that pokes through another would show its back.
+  const RangeScanner scanner(make_object(GetParam()));
+  int hits = 0;
+  for (const View& view : view_sphere(80, 2, Vec3::Zero()).views) {
+    for (int row = -12; row <= 12; ++row) {
+      for (int column = -12; column <= 12; ++column) {
+        const Vec3 direction = ray_direction(view.world_from_sensor.linear(), column / 40.0, row / 40.0);
+        const auto hit = scanner.cast(view.position(), direction);
+        if (!hit) continue;
+        ++hits;
+        ASSERT_LT(hit->normal.dot(direction), 0) << "at " << hit->point.transpose();
+      }
+    }
+  }
+  EXPECT_GT(hits, 80 * 25);
 }
 
 TEST_P(Objects, AreCentredAtTheirDefaultSize) {

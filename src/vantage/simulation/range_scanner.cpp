@@ -100,7 +100,7 @@ struct PixelWindow {
   int first_row = 0, end_row = 0;
 };
 
-/// The pixels in which a box can appear, with a margin of a pixel for rounding: outside of them nothing needs a ray.
+/// The pixels in which a box can appear, with a margin for rounding: outside of them nothing needs a ray.
 PixelWindow window_of(const Box3& box, const RayGrid& rays, const View& view) {
   const auto [columns, rows] = rays.resolution;
   const Pose sensor_from_world = view.world_from_sensor.inverse();
