@@ -75,6 +75,7 @@ void integration_fast(benchmark::State& state) {
 }
 
 void integration_exact(benchmark::State& state) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const Job job(state);
   const std::vector<SightLine> lines = sight_lines(job.scan.image, job.scan.normals, job.scan.view);
   time_on_copies(state, job.before, [&](VoxelMap& map) { integrate_exactly(map, lines); });

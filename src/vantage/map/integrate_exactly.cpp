@@ -1,6 +1,7 @@
-#include <cstdlib>
-#include <vector>
+#include <algorithm>
+#include <atomic>
 
+#include "vantage/core/parallel.hpp"
 #include "vantage/map/integrate.hpp"
 #include "vantage/map/voxel_ray.hpp"
 
@@ -9,10 +10,17 @@ namespace {
 
 int steps_between(const Index3& a, const Index3& b) { return (a - b).cwiseAbs().sum(); }
 
-/// Bits set by the rays of a scan, one per voxel of the enclosure.
+/// Bits set by the rays of a scan, one per voxel of the enclosure. Rays may run at the same time: bits are only set, so
+/// that the order does not matter.
 struct Marks {
   BitPlane emptied, behind;
 };
+
+void set_bit(BitPlane& plane, const BitLayout& layout, const Index3& local) {
+  const std::atomic_ref word(plane.words[layout.word(local)]);
+  const std::uint64_t bit = BitLayout::bit(local);
+  if ((word.load(std::memory_order_relaxed) & bit) == 0) word.fetch_or(bit, std::memory_order_relaxed);
+}
 
 void trace(const VoxelMap& map, const SightLine& line, Marks& marks) {
   const LatticeRay ray(map.grid(), line.origin, line.direction);
@@ -26,9 +34,9 @@ void trace(const VoxelMap& map, const SightLine& line, Marks& marks) {
     if (!before_end && !labels_behind) return false;
     const Index3 local = index - map.enclosure().min;
     if (before_end) {
-      marks.emptied.words[map.layout().word(local)] |= BitLayout::bit(local);
+      set_bit(marks.emptied, map.layout(), local);
     } else if (steps > steps_to_hit) {
-      marks.behind.words[map.layout().word(local)] |= BitLayout::bit(local);
+      set_bit(marks.behind, map.layout(), local);
     }
     return true;
   });
@@ -48,7 +56,13 @@ IntegrationReport integrate_exactly(VoxelMap& map, std::span<const SightLine> li
   Marks marks;
   marks.emptied.words.assign(map.layout().words(), 0);
   marks.behind.words.assign(map.layout().words(), 0);
-  for (const SightLine& line : lines) trace(map, line, marks);
+  constexpr std::size_t lines_per_task = 1024;
+  parallel_for((lines.size() + lines_per_task - 1) / lines_per_task, [&](std::size_t task) {
+    const std::size_t first = task * lines_per_task;
+    for (const SightLine& line : lines.subspan(first, std::min(lines_per_task, lines.size() - first))) {
+      trace(map, line, marks);
+    }
+  });
   for (std::size_t word = 0; word < map.layout().words(); ++word) {
     map.carve_word(word, marks.emptied.words[word], marks.behind.words[word]);
   }

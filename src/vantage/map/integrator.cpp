@@ -2,69 +2,17 @@
 
 #include <bit>
 #include <cmath>
-#include <optional>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
+#include "vantage/map/block_pixels.hpp"
 #include "vantage/map/voxel_ray.hpp"
 
 namespace vantage {
 namespace {
 
-constexpr int block_side = 4;  // divides 64, so that a block's row lies in one word
-
-/// Where the pixels see each voxel of a block that lies in front of the camera, from the corners that voxels share.
-class BlockPixels {
- public:
-  BlockPixels(const LatticeProjection& projection, const Index3& low, const Index3& size, double margin)
-      : projection_(projection), margin_(margin) {
-    std::array<double, corners> columns{}, rows{};
-    std::size_t i = 0;
-    for (int z = 0; z <= block_side; ++z) {
-      for (int y = 0; y <= block_side; ++y) {
-        for (int x = 0; x <= block_side; ++x, ++i) {
-          const Index3 at = (low + Index3(x, y, z)).cwiseMin(size);
-          const auto [u, v, w] = projection.corner(at.x(), at.y(), at.z());
-          columns[i] = u / w;
-          rows[i] = v / w;
-        }
-      }
-    }
-    columns_ = ranges(columns);
-    rows_ = ranges(rows);
-  }
-
-  /// The voxel at `offset` from the block's first.
-  [[nodiscard]] PixelRect of(const Index3& offset) const {
-    const auto i = static_cast<std::size_t>((offset.z() * side + offset.y()) * side + offset.x());
-    return projection_.pixels_within(columns_.least[i], columns_.most[i], rows_.least[i], rows_.most[i], margin_);
-  }
-
- private:
-  static constexpr int side = block_side + 1;
-  static constexpr std::size_t corners = side * side * side;
-  struct Ranges {
-    std::array<double, corners> least, most;
-  };
-
-  /// Extremes over the eight corners of each voxel: over pairs along x, pairs of pairs along y, and so on.
-  [[nodiscard]] static Ranges ranges(const std::array<double, corners>& values) {
-    Ranges range{values, values};
-    std::size_t reach = 0;
-    for (const std::size_t next : {1, side, side * side}) {
-      reach += next;
-      for (std::size_t i = 0; i + reach < corners; ++i) {
-        range.least[i] = std::min(range.least[i], range.least[i + next]);
-        range.most[i] = std::max(range.most[i], range.most[i + next]);
-      }
-    }
-    return range;
-  }
-
-  const LatticeProjection& projection_;
-  double margin_;
-  Ranges columns_, rows_;
-};
+constexpr int block_side = BlockPixels::side;
+static_assert(64 % block_side == 0, "a block's row lies in one word");
 
 /// Marks what a scan empties and occludes in blocks of voxels, straight in the words of the map.
 class BlockCarver {
@@ -90,6 +38,7 @@ class BlockCarver {
 
  private:
   enum class Fate { unchanged, emptied, occluded };
+  using Kind = LatticeProjection::Footprint::Kind;
 
   [[nodiscard]] std::uint64_t open(std::size_t word) const {
     return ~(map_.occupied().words[word] | map_.empty().words[word]);
@@ -112,66 +61,73 @@ class BlockCarver {
     });
     if (any_open == 0) return;
     const LatticeProjection::Footprint footprint = projection_.footprint(low, high);
-    if (footprint.kind == LatticeProjection::Footprint::Kind::none) return;
+    if (footprint.kind == Kind::none) return;
     const bool dense = projection_.is_dense(footprint);
     const LimitRange range = limits_.range(footprint.pixels);
     const auto [least, most] = steps_.range(low, high);
-    if (least >= range.most_emptied) {  // nothing is emptied
-      if (any_unmarked == 0 || most <= range.least_occluded) return;
-      if (dense && least > range.most_occluded) {
+    if (least >= range.most_emptied()) {  // nothing is emptied
+      if (any_unmarked == 0 || most <= range.least_occluded()) return;
+      if (dense && least > range.most_occluded()) {
         for_each_word([&](std::size_t word, int, int) { map_.carve_word(word, 0, columns); });
         return;
       }
-    } else if (dense && most < range.least_emptied) {
+    } else if (dense && most < range.least_emptied()) {
       for_each_word([&](std::size_t word, int, int) { map_.carve_word(word, columns, 0); });
       return;
     }
-    std::optional<BlockPixels> pixels;
-    if (footprint.kind == LatticeProjection::Footprint::Kind::bounded) {
-      pixels.emplace(projection_, low, map_.layout().size, footprint.margin);
+    if (footprint.kind == Kind::anywhere) {
+      for_each_word([&](std::size_t word, int y, int z) {
+        carve_row(word, {low.x(), y, z}, columns, [&](const Index3& voxel, bool is_unmarked) {
+          const PixelRect pixels = projection_.footprint(voxel, voxel + Index3::Ones()).pixels;
+          return fate_among(pixels, voxel, is_unmarked, false);
+        });
+      });
+      return;
     }
-    const auto pixels_of = [&](const Index3& voxel) {
-      return pixels ? pixels->of(voxel - low) : projection_.footprint(voxel, voxel + Index3::Ones()).pixels;
-    };
+    const BlockPixels block(projection_, low, map_.layout().size, footprint);
     for_each_word([&](std::size_t word, int y, int z) {
-      std::uint64_t emptied = 0;
-      std::uint64_t occluded = 0;
-      for (std::uint64_t bits = open(word) & columns; bits != 0; bits &= bits - 1) {
-        const std::uint64_t bit = bits & (~bits + 1);
-        const Index3 voxel((low.x() & ~63) + std::countr_zero(bits), y, z);
-        const Fate fate = fate_of(voxel, (unmarked(word) & bit) != 0, dense, pixels_of);
-        if (fate == Fate::emptied) emptied |= bit;
-        if (fate == Fate::occluded) occluded |= bit;
-      }
-      map_.carve_word(word, emptied, occluded);
+      carve_row(word, {low.x(), y, z}, columns, [&](const Index3& voxel, bool is_unmarked) {
+        bool is_occluded = false;
+        if (dense) {
+          const auto [column, row] = block.nearest_to_center(voxel - low);
+          const PixelLimits limits = limits_.at(column, row);
+          const int steps = steps_.of(voxel);
+          if (steps < limits.emptied_below) return Fate::emptied;
+          is_occluded = steps > limits.occluded_above;
+        }
+        return fate_among(block.rect(voxel - low), voxel, is_unmarked, is_occluded);
+      });
     });
   }
 
-  template <class PixelsOf>
-  [[nodiscard]] Fate fate_of(const Index3& voxel, bool is_unmarked, bool dense, const PixelsOf& pixels_of) const {
-    const int steps = steps_.of(voxel);
-    bool occluded = false;
-    if (dense) {
-      const PixelLimits limits = limits_of_pixel_at_center(voxel);
-      if (steps < limits.emptied_below) return Fate::emptied;
-      occluded = steps > limits.occluded_above;
+  /// Gives the open voxels of a block's row, which begins at local index `first`, the fate that `fate_of` tells.
+  template <class FateOf>
+  void carve_row(std::size_t word, const Index3& first, std::uint64_t columns, const FateOf& fate_of) {
+    std::uint64_t emptied = 0;
+    std::uint64_t occluded = 0;
+    const std::uint64_t unmarked_here = unmarked(word);
+    for (std::uint64_t bits = open(word) & columns; bits != 0; bits &= bits - 1) {
+      const std::uint64_t bit = bits & (~bits + 1);
+      const Index3 voxel((first.x() & ~63) + std::countr_zero(bits), first.y(), first.z());
+      const Fate fate = fate_of(voxel, (unmarked_here & bit) != 0);
+      if (fate == Fate::emptied) emptied |= bit;
+      if (fate == Fate::occluded) occluded |= bit;
     }
-    const PixelRect pixels = pixels_of(voxel);
-    if (pixels.is_empty()) return Fate::unchanged;
-    const LimitRange range = limits_.range(pixels);
-    const auto empties = [steps](const PixelLimits& limits) { return steps < limits.emptied_below; };
-    if (steps < range.most_emptied && any_pixel(voxel, pixels, empties)) return Fate::emptied;
-    if (!is_unmarked) return Fate::unchanged;
-    const auto occludes = [steps](const PixelLimits& limits) { return steps > limits.occluded_above; };
-    occluded = occluded || (steps > range.least_occluded && any_pixel(voxel, pixels, occludes));
-    return occluded ? Fate::occluded : Fate::unchanged;
+    map_.carve_word(word, emptied, occluded);
   }
 
-  [[nodiscard]] PixelLimits limits_of_pixel_at_center(const Index3& voxel) const {
-    const auto [u, v, w] = projection_.corner(voxel.x(), voxel.y(), voxel.z()) +
-                           projection_.corner(voxel.x() + 1, voxel.y() + 1, voxel.z() + 1);
-    const double inverse = 1 / w;
-    return limits_.at(static_cast<int>(u * inverse + 0.5), static_cast<int>(v * inverse + 0.5));
+  /// What the pixels that may see a voxel make of it, one of which is known to occlude it or not.
+  [[nodiscard]] Fate fate_among(const PixelRect& pixels, const Index3& voxel, bool is_unmarked,
+                                bool is_occluded) const {
+    if (pixels.is_empty()) return Fate::unchanged;
+    const int steps = steps_.of(voxel);
+    const LimitRange range = limits_.range(pixels);
+    const auto empties = [steps](const PixelLimits& limits) { return steps < limits.emptied_below; };
+    if (steps < range.most_emptied() && any_pixel(voxel, pixels, empties)) return Fate::emptied;
+    if (!is_unmarked) return Fate::unchanged;
+    const auto occludes = [steps](const PixelLimits& limits) { return steps > limits.occluded_above; };
+    if (is_occluded || (steps > range.least_occluded() && any_pixel(voxel, pixels, occludes))) return Fate::occluded;
+    return Fate::unchanged;
   }
 
   /// Does the ray of any of the pixels whose limits are `wanted` pass the voxel?

@@ -179,15 +179,6 @@ class RowReader {
   std::vector<std::uint8_t> needs_care_;
 };
 
-LimitRange join(const LimitRange& a, const LimitRange& b) {
-  return {std::max(a.most_emptied, b.most_emptied), std::min(a.least_emptied, b.least_emptied),
-          std::max(a.most_occluded, b.most_occluded), std::min(a.least_occluded, b.least_occluded)};
-}
-
-LimitRange range_of(const PixelLimits& limits) {
-  return {limits.emptied_below, limits.emptied_below, limits.occluded_above, limits.occluded_above};
-}
-
 }  // namespace
 
 StepCounts::StepCounts(const Index3& enclosure_size, const Index3& local_eye) : eye(local_eye) {
@@ -234,10 +225,11 @@ void ScanLimits::build_tiles() {
   Tiles& finest = tiles_of(columns, rows);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      LimitRange range = range_of(at(side * column, side * row));
+      LimitRange range(at(side * column, side * row));
       for (int y = side * row; y < std::min(side * (row + 1), resolution_.rows); ++y) {
+        const PixelLimits* const pixels = row_of(y);
         for (int x = side * column; x < std::min(side * (column + 1), resolution_.columns); ++x) {
-          range = join(range, range_of(at(x, y)));
+          range.join(LimitRange(pixels[x]));
         }
       }
       finest.at(column, row) = range;
@@ -254,8 +246,11 @@ void ScanLimits::build_tiles() {
       const int below = std::min(2 * row + 1, finer_rows - 1);
       for (int column = 0; column < columns; ++column) {
         const int right = std::min(2 * column + 1, finer_columns - 1);
-        coarser.at(column, row) = join(join(finer.at(2 * column, 2 * row), finer.at(right, 2 * row)),
-                                       join(finer.at(2 * column, below), finer.at(right, below)));
+        LimitRange& range = coarser.at(column, row);
+        range = finer.at(2 * column, 2 * row);
+        range.join(finer.at(right, 2 * row));
+        range.join(finer.at(2 * column, below));
+        range.join(finer.at(right, below));
       }
     }
   }
@@ -263,14 +258,14 @@ void ScanLimits::build_tiles() {
 }
 
 LimitRange ScanLimits::range(const PixelRect& rect) const {
-  constexpr int most_tiles = 4;  // along each side of the rectangle
+  constexpr int most_tiles = 8;  // along each side of the rectangle
   int shift = finest_shift;
   while (std::max(rect.right - rect.left, rect.bottom - rect.top) >> shift >= most_tiles) ++shift;
   const Tiles& tiles = levels_[static_cast<std::size_t>(shift - finest_shift)];
   LimitRange range = tiles.at(rect.left >> shift, rect.top >> shift);
   for (int row = rect.top >> shift; row <= rect.bottom >> shift; ++row) {
     for (int column = rect.left >> shift; column <= rect.right >> shift; ++column) {
-      range = join(range, tiles.at(column, row));
+      range.join(tiles.at(column, row));
     }
   }
   return range;

@@ -36,9 +36,23 @@ struct PixelLimits {
 };
 
 /// Extremes of the limits over some pixels.
-struct LimitRange {
-  std::int16_t most_emptied, least_emptied;
-  std::int16_t most_occluded, least_occluded;
+class LimitRange {
+ public:
+  explicit LimitRange(const PixelLimits& pixel)
+      : lanes_{pixel.emptied_below, static_cast<std::int16_t>(-pixel.emptied_below), pixel.occluded_above,
+               static_cast<std::int16_t>(-pixel.occluded_above)} {}
+  LimitRange() = default;
+
+  [[nodiscard]] int most_emptied() const { return lanes_[0]; }
+  [[nodiscard]] int least_emptied() const { return -lanes_[1]; }
+  [[nodiscard]] int most_occluded() const { return lanes_[2]; }
+  [[nodiscard]] int least_occluded() const { return -lanes_[3]; }
+  void join(const LimitRange& other) { lanes_ = lanes_ > other.lanes_ ? lanes_ : other.lanes_; }
+
+ private:
+  // The least ones negated, so that one vector instruction joins all four.
+  using Lanes = std::int16_t __attribute__((vector_size(8)));
+  Lanes lanes_;
 };
 
 /// A measured point in the enclosure.

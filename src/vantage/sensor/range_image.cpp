@@ -46,8 +46,13 @@ std::vector<Vec3f> range_image_normals(const RangeImage& image, const RangeNorma
   const auto [columns, rows] = image.camera.resolution;
   const double pixel = 2 * std::max(rays.x_half / columns, rays.y_half / rows);
   std::vector<Vec3f> normals(image.depth.size(), Vec3f::Zero());
+  // A table of directions: each takes a division, and each point is asked for five times.
+  std::vector<double> x(static_cast<std::size_t>(columns)), y(static_cast<std::size_t>(rows));
+  for (int column = 0; column < columns; ++column) x[static_cast<std::size_t>(column)] = rays.x(column);
+  for (int row = 0; row < rows; ++row) y[static_cast<std::size_t>(row)] = rays.y(row);
   const auto point = [&](int column, int row) {
-    return point_in_sensor(rays, column, row, static_cast<double>(image.at(column, row)));
+    const auto depth = static_cast<double>(image.at(column, row));
+    return Vec3(x[static_cast<std::size_t>(column)] * depth, y[static_cast<std::size_t>(row)] * depth, depth);
   };
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
