@@ -99,6 +99,8 @@ class RandomScenes {
 };
 
 TEST(Integrator, DoesToTheLastBitWhatExactRaysDo) {
+  // Thousands of scans of a fraction of a millisecond; threads have a test of their own.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   RandomScenes scenes(61);
   Random& random = scenes.random;
   Integrator integrator;
