@@ -31,7 +31,9 @@ TEST(Integrator, LargestEnclosureAndImage) {
     ASSERT_EQ(fast.hidden().words, exact.hidden().words);
     ASSERT_EQ(fast.occplane().words, exact.occplane().words);
   }
-  for (const Label label : all_labels) EXPECT_GT(fast.count(label), 10000) << name(label);
+  for (const Label label : {Label::occupied, Label::empty, Label::occluded, Label::occplane}) {
+    EXPECT_GT(fast.count(label), 10000) << name(label);
+  }
 }
 
 }  // namespace
