@@ -97,7 +97,7 @@ Pose read_pose(const std::filesystem::path& path) {
 
 void write_pose(const std::filesystem::path& path, const Pose& pose) {
   std::string text;
-  const Eigen::Matrix4d matrix = pose.matrix();
+  const Eigen::Matrix4d& matrix = pose.matrix();
   for (int row = 0; row < 4; ++row) {
     text += fmt::format("{} {} {} {}\n", matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3));
   }
