@@ -1,0 +1,93 @@
+/** What the tests of the page share: reports on disk, pages that note every request and error, and pictures. */
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { fillPage } from "../fixtures/pack.ts";
+
+const folder = mkdtempSync(join(tmpdir(), "vantage-viewer-"));
+
+export const template = (): string => readFileSync(new URL("../dist/report.html", import.meta.url), "utf8");
+
+/** Writes a report and gives its path. */
+export function writeReport(name: string, html: string): string {
+  const path = join(folder, name);
+  writeFileSync(path, html);
+  return path;
+}
+
+export const reportOf = (name: string, document: unknown): string => writeReport(name, fillPage(template(), document));
+
+export interface Watched {
+  page: Page;
+  /** Requests for anything but the page itself. */
+  requests: string[];
+  problems: string[];
+}
+
+export interface PageOptions {
+  width?: number;
+  height?: number;
+  scheme?: "light" | "dark";
+  offline?: boolean;
+  javaScript?: boolean;
+  touch?: boolean;
+  scaleFactor?: number;
+}
+
+export async function openPage(browser: Browser, url: string, options: PageOptions = {}): Promise<Watched> {
+  const { width = 1280, height = 720, scheme = "light", offline = true, javaScript = true, touch = false } = options;
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme: scheme,
+    javaScriptEnabled: javaScript,
+    hasTouch: touch,
+    deviceScaleFactor: options.scaleFactor ?? 1,
+  });
+  await context.setOffline(offline);
+  const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
+  const watched: Watched = { page, requests: [], problems: [] };
+  page.on("request", (request) => {
+    if (request.url() !== url && !request.url().startsWith("data:")) watched.requests.push(request.url());
+  });
+  page.on("pageerror", (error) => watched.problems.push(String(error)));
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) watched.problems.push(message.text());
+  });
+  await page.goto(url);
+  if (javaScript) await page.waitForSelector("html[data-ready]", { state: "attached" });
+  return watched;
+}
+
+export const openReport = (browser: Browser, path: string, options?: PageOptions) =>
+  openPage(browser, `file://${path}`, options);
+
+/** Shares of the scene's pixels: blue of occupied voxels, orange of occplane ones, and anything but the background. */
+export async function sceneColors(page: Page): Promise<{ blue: number; orange: number; drawn: number }> {
+  const picture = await page.locator(".stage canvas").screenshot();
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext("2d")!;
+    context.drawImage(image, 0, 0);
+    const pixels = context.getImageData(0, 0, canvas.width, canvas.height).data;
+    const count = { blue: 0, orange: 0, drawn: 0 };
+    const corner = pixels.slice(pixels.length - 4);
+    for (let i = 0; i < pixels.length; i += 4) {
+      const [r, g, b] = [pixels[i], pixels[i + 1], pixels[i + 2]];
+      if (b > 70 && r < 0.45 * b && g > 0.35 * b && g < 0.8 * b) ++count.blue;
+      if (r > 120 && g > 0.45 * r && g < 0.85 * r && b < 0.62 * r) ++count.orange;
+      if (Math.abs(r - corner[0]) + Math.abs(g - corner[1]) + Math.abs(b - corner[2]) > 24) ++count.drawn;
+    }
+    const all = pixels.length / 4;
+    return { blue: count.blue / all, orange: count.orange / all, drawn: count.drawn / all };
+  }, picture.toString("base64"));
+}
+
+/** Waits until the scene has been drawn with what was set before. */
+export const settle = (page: Page) =>
+  page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => setTimeout(done, 400))));

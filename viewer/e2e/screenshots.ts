@@ -1,0 +1,98 @@
+/**
+ * The pictures of the page in docs/, made from runs of the program itself:
+ *
+ *     npm run screenshots [-- REPORT [EXPERIMENT]]
+ *
+ * REPORT is the report.html of a reconstruction; without it the mug is scanned first (the program must be built).
+ * EXPERIMENT is the report.html of an experiment; without it that picture is left as it is.
+ */
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import type { Page } from "playwright-core";
+import { launch } from "./browser.ts";
+import { openReport, settle, type PageOptions } from "./pages.ts";
+
+const root = fileURLToPath(new URL("../..", import.meta.url));
+const MAX_BYTES = 300_000;
+
+function scanMug(): string {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-mug-"));
+  const options = ["--positioning-error", "0.05,0.05,0.05", "--registration", "icp", "--seed", "3"];
+  execFileSync(join(root, "vantage"), ["reconstruct", "mug", ...options, "--out", folder], { stdio: "inherit" });
+  return join(folder, "report.html");
+}
+
+type Set = (page: Page) => Promise<unknown>;
+const middle = (page: Page) => page.evaluate(() => Math.floor((window.vantage!.session.run.scans.length - 1) / 2));
+
+/** The first screen as it opens, but at a moment when there is still something to plan. */
+const first: Set = async (page) => {
+  await page.locator("input.time").fill(String(Math.min(2, await middle(page))));
+};
+
+/** In the middle: cut open, the slice through all labels, quality as colour. */
+const inside: Set = async (page) => {
+  await page.locator("input.time").fill(String(Math.max(1, (await middle(page)) - 1)));
+  await page.evaluate(() => {
+    const { session, scene } = window.vantage!;
+    const { store } = session;
+    const [, y] = session.run.grid.enclosureSize;
+    store.set({ slice: { axis: 1, index: y >> 1 }, coloring: "quality" });
+    store.set({ layers: { ...store.state.layers, candidates: false, path: false, frustum: false, normals: true } });
+    scene!.viewport.orbit(Math.PI - 0.1, 0.12, 0.42);
+  });
+};
+
+/** A picked view: the one that comes next. */
+const picked: Set = async (page) => {
+  await page.locator("input.time").fill(String(await middle(page)));
+  await page.evaluate(() => {
+    const { session, scene } = window.vantage!;
+    const index = session.planAt(session.store.state.step)!.plan.chosen!;
+    session.store.set({ selection: { kind: "view", index } });
+    session.store.setLayer("seen", true);
+    scene!.viewport.orbit(0.5, 0.15);
+  });
+};
+
+/** What came out: the surface, the cloud's normals, the truth as a ghost. */
+const result: Set = async (page) => {
+  await page.evaluate(() => {
+    const { session, scene } = window.vantage!;
+    const { store } = session;
+    for (const label of [0, 1, 2, 3, 4]) store.setLabel(label, "hide");
+    const layers = { ...store.state.layers, cloud: true, frustum: false };
+    store.set({ layers });
+    scene!.viewport.orbit(0, 0, 0.5);
+  });
+};
+
+const reportPath = resolve(process.argv[2] ?? scanMug());
+const shots: [string, string | undefined, PageOptions, Set][] = [
+  ["viewer.png", reportPath, { scheme: "dark" }, first],
+  ["viewer-slice.png", reportPath, { scheme: "light" }, inside],
+  ["viewer-view.png", reportPath, { scheme: "light" }, picked],
+  ["viewer-result.png", reportPath, { scheme: "dark" }, result],
+  ["viewer-phone.png", reportPath, { width: 390, height: 844, touch: true, scheme: "light" }, first],
+  ["viewer-experiment.png", process.argv[3] && resolve(process.argv[3]), { scheme: "light", height: 900 }, async () => {}],
+];
+
+const browser = await launch();
+for (const [name, path, options, prepare] of shots) {
+  if (!path) continue;
+  const { page, problems } = await openReport(browser, path, options);
+  await prepare(page);
+  await settle(page);
+  await page.waitForTimeout(700);
+  const file = join(root, "docs", name);
+  await page.screenshot({ path: file });
+  if (problems.length) throw new Error(`${name}: ${problems.join("; ")}`);
+  const { size } = statSync(file);
+  console.log(`docs/${name}: ${Math.round(size / 1000)} kB`);
+  if (size > MAX_BYTES) throw new Error(`docs/${name} is larger than ${MAX_BYTES / 1000} kB`);
+  await page.context().close();
+}
+await browser.close();
