@@ -36,7 +36,7 @@ export interface PageOptions {
 }
 
 export async function openPage(browser: Browser, url: string, options: PageOptions = {}): Promise<Watched> {
-  const { width = 1280, height = 720, scheme = "light", offline = true, javaScript = true, touch = false } = options;
+  const { width = 1100, height = 640, scheme = "light", offline = true, javaScript = true, touch = false } = options;
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme: scheme,
@@ -46,7 +46,7 @@ export async function openPage(browser: Browser, url: string, options: PageOptio
   });
   await context.setOffline(offline);
   const page = await context.newPage();
-  page.setDefaultTimeout(60_000);
+  page.setDefaultTimeout(180_000);
   const watched: Watched = { page, requests: [], problems: [] };
   page.on("request", (request) => {
     if (request.url() !== url && !request.url().startsWith("data:")) watched.requests.push(request.url());
@@ -63,9 +63,19 @@ export async function openPage(browser: Browser, url: string, options: PageOptio
 export const openReport = (browser: Browser, path: string, options?: PageOptions) =>
   openPage(browser, `file://${path}`, options);
 
+/** The scene without the panel that lies over it. */
+export async function scenePicture(page: Page): Promise<Buffer> {
+  const box = (await page.locator(".stage canvas").boundingBox())!;
+  const panel = (await page.locator(".layers").boundingBox())!;
+  const left = panel.height > 60 ? panel.x + panel.width + 4 : box.x;
+  const top = panel.height > 60 ? box.y : panel.y + panel.height + 4;
+  const clip = { x: left, y: top, width: box.x + box.width - left, height: box.y + box.height - top };
+  return page.screenshot({ clip });
+}
+
 /** Shares of the scene's pixels: blue of occupied voxels, orange of occplane ones, and anything but the background. */
 export async function sceneColors(page: Page): Promise<{ blue: number; orange: number; drawn: number }> {
-  const picture = await page.locator(".stage canvas").screenshot();
+  const picture = await scenePicture(page);
   return page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;

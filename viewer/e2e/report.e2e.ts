@@ -7,7 +7,7 @@ import { experimentFixture } from "../fixtures/experiment.ts";
 import { mugRun } from "../fixtures/mug_run.ts";
 import { pack } from "../fixtures/pack.ts";
 import { launch } from "./browser.ts";
-import { openReport, reportOf, sceneColors, settle, template, writeReport, type Watched } from "./pages.ts";
+import { openReport, reportOf, sceneColors, scenePicture, settle, template, writeReport, type Watched } from "./pages.ts";
 
 type Json = Record<string, any>;
 let browser: Browser;
@@ -16,7 +16,7 @@ let report: string;
 
 beforeAll(async () => {
   browser = await launch();
-  run = JSON.parse(JSON.stringify(mugRun({ scans: 6, rays: 110 }))) as Json;
+  run = JSON.parse(JSON.stringify(mugRun({ scans: 5, rays: 110 }))) as Json;
   report = reportOf("report.html", run);
 });
 afterAll(() => browser?.close());
@@ -80,7 +80,7 @@ describe("a report from disk, without a network", () => {
     const pictures = new Set<string>();
     const look = async () => {
       await settle(page);
-      pictures.add((await page.locator(".stage canvas").screenshot()).toString("base64"));
+      pictures.add((await scenePicture(page)).toString("base64"));
     };
     await look();
     for (const coloring of ["quality", "normal", "scan"]) {
@@ -298,13 +298,13 @@ describe("what cannot be shown", () => {
 
 it("turns a large scene smoothly without a graphics card", async () => {
   const big = bigRun();
-  const watched = await openReport(browser, reportOf("big.html", big));
+  const watched = await openReport(browser, reportOf("big.html", big), { width: 1280, height: 720 });
   const { page } = watched;
   const box = (await page.locator(".stage canvas").boundingBox())!;
   const [x, y] = [box.x + 0.6 * box.width, box.y + 0.5 * box.height];
   await page.mouse.move(x, y);
   await page.mouse.down();
-  for (let i = 0; i < 60; ++i) await page.mouse.move(x + 4 * i, y + i);
+  for (let i = 0; i < 40; ++i) await page.mouse.move(x + 4 * i, y + i);
   const times = await page.evaluate(() => window.vantage!.scene!.viewport.frameTimes.slice(5));
   await page.mouse.up();
   times.sort((a, b) => a - b);

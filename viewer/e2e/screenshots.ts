@@ -15,7 +15,7 @@ import type { Page } from "playwright-core";
 import { launch } from "./browser.ts";
 import { openReport, settle, type PageOptions } from "./pages.ts";
 
-const root = fileURLToPath(new URL("../..", import.meta.url));
+const root = fileURLToPath(new URL("../..", import.meta.url)).replace(/\/$/, "");
 const MAX_BYTES = 300_000;
 
 function scanMug(): string {
@@ -28,27 +28,29 @@ function scanMug(): string {
 type Set = (page: Page) => Promise<unknown>;
 const middle = (page: Page) => page.evaluate(() => Math.floor((window.vantage!.session.run.scans.length - 1) / 2));
 
+const goTo = (page: Page, step: number) => page.evaluate((k) => window.vantage!.session.store.set({ step: k }), step);
+
 /** The first screen as it opens, but at a moment when there is still something to plan. */
 const first: Set = async (page) => {
-  await page.locator("input.time").fill(String(Math.min(2, await middle(page))));
+  await goTo(page, Math.min(2, await middle(page)));
 };
 
 /** In the middle: cut open, the slice through all labels, quality as colour. */
 const inside: Set = async (page) => {
-  await page.locator("input.time").fill(String(Math.max(1, (await middle(page)) - 1)));
+  await goTo(page, Math.max(1, (await middle(page)) - 1));
   await page.evaluate(() => {
     const { session, scene } = window.vantage!;
     const { store } = session;
     const [, y] = session.run.grid.enclosureSize;
     store.set({ slice: { axis: 1, index: y >> 1 }, coloring: "quality" });
     store.set({ layers: { ...store.state.layers, candidates: false, path: false, frustum: false, normals: true } });
-    scene!.viewport.orbit(Math.PI - 0.1, 0.12, 0.42);
+    scene!.viewport.orbit(Math.PI - 0.1, 0.12, 0.45);
   });
 };
 
 /** A picked view: the one that comes next. */
 const picked: Set = async (page) => {
-  await page.locator("input.time").fill(String(await middle(page)));
+  await goTo(page, await middle(page));
   await page.evaluate(() => {
     const { session, scene } = window.vantage!;
     const index = session.planAt(session.store.state.step)!.plan.chosen!;
@@ -58,15 +60,15 @@ const picked: Set = async (page) => {
   });
 };
 
-/** What came out: the surface, the cloud's normals, the truth as a ghost. */
+/** What came out: the fused cloud, with the truth as a ghost. */
 const result: Set = async (page) => {
   await page.evaluate(() => {
     const { session, scene } = window.vantage!;
     const { store } = session;
     for (const label of [0, 1, 2, 3, 4]) store.setLabel(label, "hide");
-    const layers = { ...store.state.layers, cloud: true, frustum: false };
+    const layers = { ...store.state.layers, cloud: true, truth: true, frustum: false, candidates: false, path: false };
     store.set({ layers });
-    scene!.viewport.orbit(0, 0, 0.5);
+    scene!.viewport.orbit(0, 0, 0.4);
   });
 };
 
@@ -83,10 +85,10 @@ const shots: [string, string | undefined, PageOptions, Set][] = [
 const browser = await launch();
 for (const [name, path, options, prepare] of shots) {
   if (!path) continue;
-  const { page, problems } = await openReport(browser, path, options);
+  const { page, problems } = await openReport(browser, path, { width: 1280, height: 720, ...options });
   await prepare(page);
   await settle(page);
-  await page.waitForTimeout(700);
+  await page.waitForTimeout(1500);
   const file = join(root, "docs", name);
   await page.screenshot({ path: file });
   if (problems.length) throw new Error(`${name}: ${problems.join("; ")}`);

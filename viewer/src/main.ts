@@ -9,7 +9,7 @@ import { curves } from "./ui/curves.ts";
 import { detailsCard, scansTable } from "./ui/details.ts";
 import { h } from "./ui/dom.ts";
 import { showExperiment } from "./ui/experiment.ts";
-import { header, helpDialog } from "./ui/header.ts";
+import { header, helpDialog, optionsCard } from "./ui/header.ts";
 import { listenForKeys } from "./ui/keys.ts";
 import { layersPanel } from "./ui/layers.ts";
 import { sessionBar, type SessionBar } from "./ui/sessionbar.ts";
@@ -80,6 +80,7 @@ function showRun(run: Run, bar: ((session: Session) => SessionBar) | null): { se
           const { candidate } = session.run.scans[scan];
           if (candidate !== null) session.store.set({ selection: { kind: "view", index: candidate } });
         }),
+        optionsCard(session),
       ),
     ),
     help,

@@ -4,6 +4,24 @@ import { h } from "./dom.ts";
 import { fixed, percent, whole } from "./format.ts";
 import { theme } from "./theme.ts";
 
+/** Options that tell what kind of run it was; all of them stand at the end of the page. */
+const TOLD = ["candidates", "camera", "search", "utility", "registration", "positioning-error", "convolve", "seed"];
+
+/** All options of the run, and what made it. */
+export function optionsCard(session: Session): HTMLElement {
+  const list = h("dl", {});
+  const card = h("details", { class: "card options", id: "options" }, h("summary", {}, "Options of this run"), list);
+  const update = () => {
+    const { options, program } = session.run.meta;
+    card.hidden = options.length === 0;
+    const rows: [string, string][] = [...options, ...(program ? [["made by vantage", program] as [string, string]] : [])];
+    list.replaceChildren(...rows.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
+  };
+  session.store.subscribe(update);
+  update();
+  return card;
+}
+
 function stat(name: string, value: string): HTMLElement {
   return h("div", { class: "stat" }, h("b", {}, value), h("span", {}, name));
 }
@@ -19,8 +37,9 @@ export function header(session: Session, onHelp: () => void): HTMLElement {
     const scan = run.scans[store.state.step];
     title.textContent = run.meta.object;
     document.title = `${run.meta.object} · Vantage`;
-    const options = run.meta.options.map(([k, v]) => `${k} ${v}`).join(" ");
-    subtitle.textContent = `${run.meta.command} ${options}`;
+    const known = new Map(run.meta.options.map(([name, value]) => [name.replace(/^--/, ""), value]));
+    const shown = TOLD.filter((name) => /[1-9a-z]/i.test(known.get(name) ?? ""));
+    subtitle.textContent = [run.meta.command, ...shown.map((name) => `${name.replaceAll("-", " ")} ${known.get(name)}`)].join(" · ");
     subtitle.title = subtitle.textContent;
     stats.replaceChildren();
     if (!scan) return;
