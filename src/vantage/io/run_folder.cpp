@@ -2,14 +2,53 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "vantage/core/error.hpp"
 #include "vantage/io/atomic_file.hpp"
+#include "vantage/io/depth_image.hpp"
 #include "vantage/io/map_file.hpp"
 #include "vantage/io/point_cloud_file.hpp"
+#include "vantage/io/pose_file.hpp"
 #include "vantage/io/report.hpp"
 #include "vantage/io/static_report.hpp"
 
 namespace vantage {
+
+namespace {
+
+constexpr double finest_depth_unit = 1e-4;  // metres
+constexpr int no_return = 65535;
+
+/// A depth unit with which the camera's far limit fits into 16 bits.
+DepthEncoding encoding_for(const RangeCamera& camera) {
+  const double coarsest = std::max(finest_depth_unit, camera.max_depth / (no_return - 1));
+  return {.metres_per_unit = std::ceil(coarsest / finest_depth_unit - 1e-9) * finest_depth_unit,
+          .no_return = no_return};
+}
+
+std::string intrinsics_text(const RangeCamera& camera) {
+  const double fx = camera.resolution.columns / (camera.right - camera.left);
+  const double fy = camera.resolution.rows / (camera.bottom - camera.top);
+  return fmt::format("{} 0 {}\n0 {} {}\n0 0 1\n", fx, -0.5 - camera.left * fx, fy, -0.5 - camera.top * fy);
+}
+
+/// A frame as `vantage plan` reads it, with what it needs to know about all frames beside it.
+void write_frame(const std::filesystem::path& folder, const ScanRecord& record, const RangeImage& image) {
+  const DepthEncoding encoding = encoding_for(image.camera);
+  const std::string name = fmt::format("scan-{:03}", record.scan);
+  write_depth_png(folder / (name + ".depth.png"), image, encoding);
+  write_pose(folder / (name + ".pose.txt"), record.registered.world_from_sensor);
+  if (record.scan > 0) return;
+  write_file_atomically(folder / "camera-intrinsics.txt", intrinsics_text(image.camera));
+  write_file_atomically(
+      folder / "scans.yaml",
+      fmt::format("# vantage plan THIS_FOLDER --config THIS_FILE\ndepth-scale: {}\nno-return: {}\n"
+                  "depth-range: [{}, {}]\n",
+                  encoding.metres_per_unit, no_return, image.camera.min_depth, image.camera.max_depth));
+}
+
+}  // namespace
 
 PointCloud object_cloud(const ObjectModel& model) {
   const PointCloud& all = model.surface.cloud();
@@ -36,7 +75,8 @@ RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
   data_.candidates_text = description_.candidates_text;
 }
 
-void RunFolder::add_scan(const ScanRecord& record, const Scan& /*scan*/, const ObjectModel& model, const Plan* plan) {
+void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
+  if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path_ / "scans", record, image->image);
   data_.add_scan(record, model, plan);
   const int middle = (model.map.enclosure().min.z() + model.map.enclosure().max.z()) / 2;
   layers_.emplace_back(record.scan, label_layer(model.map, middle));
