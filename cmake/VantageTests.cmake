@@ -60,3 +60,9 @@ if(VANTAGE_APPS)
     COMMAND ${PROJECT_SOURCE_DIR}/tests/evaluator/check.sh $<TARGET_FILE:vantage> $<TARGET_FILE:second_evaluator>)
   set_tests_properties(second_evaluator.agrees PROPERTIES LABELS default TIMEOUT 240)
 endif()
+
+# The program as a user sees it: exit codes, messages, files.
+if(VANTAGE_APPS)
+  add_test(NAME command_line COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/cli_test.py $<TARGET_FILE:vantage>)
+  set_tests_properties(command_line PROPERTIES LABELS default TIMEOUT 240)
+endif()

@@ -1,13 +1,27 @@
+#include <algorithm>
 #include <exception>
 #include <iostream>
 
 #include "commands.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/io/options.hpp"
 
 namespace {
 
 constexpr int failure = 1;
 constexpr int misuse = 2;
+
+/// What is wrong with the first word where it is no command; empty where it is one.
+std::string unknown_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  const std::string nearest = vantage::nearest_name(argv[1], names);
+  return vantage::concat("'", argv[1], "' is no command", nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+}
 
 int run(int argc, char** argv) {
   CLI::App program(
@@ -27,7 +41,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& wanted) {  // --help and --version
     return program.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "vantage: " << error.what() << "\nRun `vantage --help` for what there is.\n";
+    const std::string unknown = unknown_command(program, argc, argv);
+    std::cerr << "vantage: " << (unknown.empty() ? error.what() : unknown)
+              << "\nRun `vantage --help` for what there is.\n";
     return misuse;
   }
   return 0;
