@@ -21,7 +21,7 @@ void FusedCloud::merge(const PointCloud& scan_in_sensor, const Pose& world_from_
     const auto [entry, is_new] = first_.try_emplace(cell, static_cast<int>(cloud_.size()));
     int last = -1;
     int same_side = is_new ? -1 : entry->second;
-    while (same_side >= 0 && cloud_.normals[static_cast<std::size_t>(same_side)].dot(normal) < 0) {
+    while (same_side >= 0 && cloud_.normals[static_cast<std::size_t>(same_side)].dot(normal) < -0.5) {
       last = same_side;
       same_side = next_[static_cast<std::size_t>(same_side)];
     }

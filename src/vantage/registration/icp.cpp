@@ -111,7 +111,7 @@ double misfit_of_open_directions(const IcpLevel& level, const IcpResult& result,
     const Eigen::VectorXd along = open.transpose() * effect;
     return along.dot(covariance * along);
   });
-  const auto high = variances.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(variances.size()));
+  const auto high = variances.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(variances.size()));
   std::nth_element(variances.begin(), high, variances.end());
   return std::sqrt(std::max(0.0, *high));
 }

@@ -48,7 +48,7 @@ struct IcpResult {
 
 /// How far model and scan may visibly be off each other in the open directions, where nothing but a believed pose with
 /// the standard deviations `errors` (positive, per component of a step) speaks for the result: the distance along the
-/// normals that 98 % of all surfels stay below, in the worst open direction. Metres; near 0 where the whole shape
+/// normals that 99.5 % of all surfels stay below, in the worst open direction. Metres; near 0 where the whole shape
 /// slides in itself, as a sphere does.
 [[nodiscard]] double misfit_of_open_directions(const IcpLevel& level, const IcpResult& result, const MotionFrame& frame,
                                                const Vec6& errors);

@@ -132,7 +132,7 @@ class Search {
 
  private:
   // Distance that points keep from measured surfaces before they count as standing in free space.
-  static constexpr double free_space_margin_in_cells = 3;
+  static constexpr double free_space_margin_in_cells = 2;
 
   [[nodiscard]] IcpSettings settings(const IcpLevel& level, double max_distance_in_cells) const {
     return {.max_distance = max_distance_in_cells * level.cell(),

@@ -21,6 +21,9 @@ struct Cluster {
   Mat3 squares = Mat3::Zero();
   Vec3 normal = Vec3::Zero();  // sum of the points' normals
   int next = -1;               // the cell's other side
+
+  /// Noisy normals of one side stay together; those of the two sides of a wall are opposite.
+  [[nodiscard]] bool is_other_side(const Vec3& other) const { return normal.dot(other) < -0.5 * normal.norm(); }
 };
 
 class Clusters {
@@ -66,7 +69,7 @@ class Clusters {
     if (is_new) {
       clusters_.push_back({.cell = cell});
     } else {
-      while (clusters_[static_cast<std::size_t>(i)].normal.dot(normal) < 0) {
+      while (clusters_[static_cast<std::size_t>(i)].is_other_side(normal)) {
         int& next = clusters_[static_cast<std::size_t>(i)].next;
         if (next < 0) {
           next = static_cast<int>(clusters_.size());
