@@ -111,16 +111,13 @@ void visit_voxels(const Grid& grid, const IndexBox& box, const LatticeRay& ray, 
 /// The tie rule in closed form for one voxel: does the ray pass it between `near` and `far`? Agrees with visit_voxels.
 [[nodiscard]] bool passes_voxel(const Grid& grid, const LatticeRay& ray, const Index3& index, double near, double far);
 
-/// Bresenham's line in three dimensions from voxel `from` to voxel `to`, both included (the paper's ray tracing). Calls
-/// `visit(index)` until it returns false.
-template <class Visit>
-void visit_bresenham(const Index3& from, const Index3& to, const Visit& visit) {
+/// Bresenham's line along its longest axis; see visit_bresenham.
+template <int main, class Visit>
+void visit_bresenham_along(const Index3& from, const Index3& to, const Visit& visit) {
+  constexpr int u = (main + 1) % 3;
+  constexpr int v = (main + 2) % 3;
   const Index3 delta = (to - from).cwiseAbs();
   const Index3 step = (to - from).cwiseSign();
-  int main = 0;
-  delta.maxCoeff(&main);
-  const int u = (main + 1) % 3;
-  const int v = (main + 2) % 3;
   int error_u = 2 * delta[u] - delta[main];
   int error_v = 2 * delta[v] - delta[main];
   Index3 index = from;
@@ -138,6 +135,17 @@ void visit_bresenham(const Index3& from, const Index3& to, const Visit& visit) {
     error_v += 2 * delta[v];
     index[main] += step[main];
   }
+}
+
+/// Bresenham's line in three dimensions from voxel `from` to voxel `to`, both included (the paper's ray tracing). Calls
+/// `visit(index)` until it returns false.
+template <class Visit>
+void visit_bresenham(const Index3& from, const Index3& to, const Visit& visit) {
+  int main = 0;
+  (to - from).cwiseAbs().maxCoeff(&main);
+  if (main == 0) visit_bresenham_along<0>(from, to, visit);
+  if (main == 1) visit_bresenham_along<1>(from, to, visit);
+  if (main == 2) visit_bresenham_along<2>(from, to, visit);
 }
 
 }  // namespace vantage

@@ -56,9 +56,28 @@ using SplatBatch = std::size_t (*)(const BatchView& view, const BatchRegion& reg
 using SelectInside = std::size_t (*)(const BatchRegion& region, const std::uint32_t* voxels, std::size_t count,
                                      std::uint32_t* inside);
 
+/// SurfaceNormals for the vectorised path.
+struct NormalTable {
+  const std::uint64_t* occupied;      // bit plane
+  const std::uint32_t* rank_of_word;  // occupied voxels before each word
+  const double* normals;              // x, y, z of each
+  std::size_t rows_per_layer, words_per_row;
+};
+
+/// Visible voxels by kind (PackedVoxel::Kind), and the sum of Visibility.
+struct BatchTally {
+  std::int64_t kinds[4];
+  std::int64_t cosine_sum;
+};
+
+/// Counts voxels; occupied ones whose normal's cosine is below `min_cosine` count in nothing.
+using TallyVoxels = BatchTally (*)(const NormalTable& table, const double (&axis)[3], double min_cosine,
+                                   const std::uint32_t* voxels, std::size_t count);
+
 struct SplatKernels {
   SplatBatch splat;
   SelectInside select;
+  TallyVoxels tally;
 };
 
 [[nodiscard]] SplatKernels splat_kernels_portable();

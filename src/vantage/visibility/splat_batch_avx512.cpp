@@ -4,7 +4,8 @@
 namespace vantage {
 
 SplatKernels splat_kernels_avx512() {
-  return {simd::splat_batches<simd::VectorAvx512>, simd::select_inside<simd::VectorAvx512>};
+  return {simd::splat_batches<simd::VectorAvx512>, simd::select_inside<simd::VectorAvx512>,
+          simd::tally_voxels<simd::VectorAvx512>};
 }
 
 }  // namespace vantage

@@ -4,7 +4,8 @@
 namespace vantage {
 
 SplatKernels splat_kernels_portable() {
-  return {simd::splat_batches<simd::VectorPortable>, simd::select_inside<simd::VectorPortable>};
+  return {simd::splat_batches<simd::VectorPortable>, simd::select_inside<simd::VectorPortable>,
+          simd::tally_voxels<simd::VectorPortable>};
 }
 
 }  // namespace vantage

@@ -269,8 +269,12 @@ typename V::Int draw(const BatchView& view, Borders<V>& borders, std::int32_t ro
   const Int low_bytes = V::all(0x00ff00ff);
   std::int32_t group = 0;
   for (; 4 * group < rows; ++group) {
-    const Int even = row_bits(4 * group) | row_bits(4 * group + 2) << 16;
-    const Int odd = row_bits(4 * group + 1) | row_bits(4 * group + 3) << 16;
+    Int even = row_bits(4 * group);
+    Int odd = row_bits(4 * group + 1);
+    if (4 * group + 2 < rows) {
+      even |= row_bits(4 * group + 2) << 16;
+      odd |= row_bits(4 * group + 3) << 16;
+    }
     V::store(stamp.left[group], (even & low_bytes) | (odd & low_bytes) << 8);
     V::store(stamp.right[group], ((even >> 8) & low_bytes) | (odd & ~low_bytes));
   }
@@ -372,6 +376,33 @@ std::size_t select_inside(const BatchRegion& region, const std::uint32_t* voxels
     kept += static_cast<std::size_t>(__builtin_popcount(bits));
   }
   return kept;
+}
+
+/// One by one: the occupied voxels' normals are scattered. Compiled with the others for their bit counting.
+template <class V>
+BatchTally tally_voxels(const NormalTable& table, const double (&axis)[3], double min_cosine,
+                        const std::uint32_t* voxels, std::size_t count) {
+  // Adding and taking away 1.5 * 2^52 rounds to whole numbers, ties to even, as to_fixed_point does.
+  constexpr double rounding = 0x1.8p52;
+  BatchTally sum{};
+  for (std::size_t i = 0; i < count; ++i) ++sum.kinds[voxels[i] >> 30U];
+  for (std::size_t i = 0; i < count; ++i) {
+    if (voxels[i] >> 30U != 1) continue;
+    const std::size_t x = voxels[i] & 1023U;
+    const std::size_t row = (voxels[i] >> 20U & 1023U) * table.rows_per_layer + (voxels[i] >> 10U & 1023U);
+    const std::size_t word = row * table.words_per_row + (x >> 6U);
+    const std::uint64_t before = table.occupied[word] & ((std::uint64_t{1} << (x & 63U)) - 1);
+    const std::size_t rank = table.rank_of_word[word] + static_cast<std::size_t>(__builtin_popcountll(before));
+    const double* normal = table.normals + 3 * rank;
+    const double cosine = -(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2]);  // facing_cosine
+    const bool has_normal = normal[0] != 0 || normal[1] != 0 || normal[2] != 0;
+    if (has_normal && cosine < min_cosine) {
+      --sum.kinds[1];
+    } else if (cosine > 0) {
+      sum.cosine_sum += static_cast<std::int64_t>((cosine * 0x1p30 + rounding) - rounding);
+    }
+  }
+  return sum;
 }
 
 }  // namespace vantage::simd

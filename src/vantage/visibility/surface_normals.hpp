@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/map/voxel_map.hpp"
+#include "vantage/visibility/splat_batch.hpp"
 
 namespace vantage {
 
@@ -19,6 +20,10 @@ class SurfaceNormals {
     const std::size_t word = layout_.word(local);
     const std::uint64_t before = occupied_[word] & (BitLayout::bit(local) - 1);
     return normals_[rank_of_word_[word] + static_cast<std::uint32_t>(std::popcount(before))];
+  }
+  [[nodiscard]] NormalTable table() const {
+    return {occupied_, rank_of_word_.data(), normals_.empty() ? nullptr : normals_.data()->data(),
+            static_cast<std::size_t>(layout_.size.y()), static_cast<std::size_t>(layout_.words_per_row)};
   }
 
  private:

@@ -165,20 +165,17 @@ bool VisibilityEvaluator::Prepared::counts(const PackedVoxel& voxel, const Range
 
 Visibility VisibilityEvaluator::Prepared::tally(const std::vector<std::uint32_t>& voxels, const RangeCamera& camera,
                                                 const Vec3& axis) const {
-  std::array<std::int32_t, 4> kinds{};
+  constexpr double no_limit = -2;
+  const double min_cosine = camera.max_incidence ? std::cos(*camera.max_incidence) : no_limit;
+  const BatchTally sum =
+      kernels.tally(normals.table(), {axis.x(), axis.y(), axis.z()}, min_cosine, voxels.data(), voxels.size());
+  const auto count = [&](PackedVoxel::Kind kind) { return static_cast<std::int32_t>(sum.kinds[kind]); };
   Visibility seen;
-  for (const std::uint32_t bits : voxels) {
-    const PackedVoxel voxel{bits};
-    if (!counts(voxel, camera, axis)) continue;
-    ++kinds[voxel.kind()];
-    if (voxel.kind() == PackedVoxel::occupied) {
-      seen.cosine_sum += to_fixed_point(std::max(0.0, facing_cosine(axis, normals[voxel.index()])));
-    }
-  }
-  seen.occupied = kinds[PackedVoxel::occupied];
-  seen.occplane = kinds[PackedVoxel::occplane];
-  seen.unmarked = kinds[PackedVoxel::unmarked];
-  seen.occluded = kinds[PackedVoxel::occluded];
+  seen.occupied = count(PackedVoxel::occupied);
+  seen.occplane = count(PackedVoxel::occplane);
+  seen.unmarked = count(PackedVoxel::unmarked);
+  seen.occluded = count(PackedVoxel::occluded);
+  seen.cosine_sum = sum.cosine_sum;
   return seen;
 }
 
