@@ -233,8 +233,10 @@ TEST_F(SeeUntil, AnInterruptedEvaluationHoldsOnlyRightCountsOfTheFirstViews) {
   const auto seen = evaluator.see_until(Clock::now() + whole / 4, camera_, views_, resolutions_, order_);
   bool is_done = true;
   for (const std::size_t i : order_) {
-    if (seen[i]) EXPECT_EQ(*seen[i], all[i]);
-    if (seen[i]) EXPECT_TRUE(is_done) << "view " << i << " came before an earlier one of the order";
+    if (seen[i]) {
+      EXPECT_EQ(*seen[i], all[i]);
+      EXPECT_TRUE(is_done) << "view " << i << " came before an earlier one of the order";
+    }
     is_done = seen[i].has_value();
   }
 }
