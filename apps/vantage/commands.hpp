@@ -8,6 +8,7 @@ namespace vantage::app {
 void add_reconstruct(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_config(CLI::App& program);
+void add_experiment(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_export(CLI::App& program);
 void add_objects(CLI::App& program);

@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   vantage::app::add_reconstruct(program);
   vantage::app::add_plan(program);
   vantage::app::add_evaluate(program);
+  vantage::app::add_experiment(program);
   vantage::app::add_config(program);
   vantage::app::add_export(program);
   vantage::app::add_objects(program);

@@ -115,6 +115,7 @@ void ReconstructOptions::validate() const {
           ": must not be negative");
   require((positioning_error.array() >= 0).all() && positioning_error.allFinite(),
           "positioning-error = ", positioning_error.transpose(), " m: standard deviations must not be negative");
+  require_one_of("convolve", convolve, {"off", "on", "normalised"});
   require_one_of("quality", quality, {"axis", "ray"});
   require_one_of("search", search, {"exhaustive", "multi-resolution"});
   require_one_of("registration", registration, {"truth", "none", "icp"});
@@ -149,6 +150,10 @@ PlannerOptions ReconstructOptions::planner_options() const {
     result.reach.workspace = Box3(Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]));
   }
   if (obstacles) result.reach.obstacles = boxes_from_text("obstacles", *obstacles);
+  if (convolve != "off") {
+    result.expected_error = PositioningError::from_deviations(believed_error.value_or(positioning_error));
+    result.convolution.normalise = convolve == "normalised";
+  }
   result.stop_occplane = stop_occplane;
   return result;
 }

@@ -45,6 +45,8 @@ struct ReconstructOptions {
   bool navigation = true;
 
   Vec3 positioning_error = Vec3::Zero();
+  std::optional<Vec3> believed_error;
+  std::string convolve = "off";
   std::string registration = "truth";
 
   int max_views = 40;
@@ -98,6 +100,9 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("rho", o.rho, "", "navigation factor of the farthest view, eq. 10");
   field("navigation", o.navigation, "", "use the navigation factor");
   field("positioning-error", o.positioning_error, "m", "standard deviation of the robot's position per axis");
+  field("believed-error", o.believed_error, "m",
+        "standard deviation that the planner assumes; that of the robot if not given");
+  field("convolve", o.convolve, "", "convolution after evaluation with the believed error: off, on or normalised");
   field("registration", o.registration, "", "pose of a scan: truth, none (the believed one) or icp");
   field("max-views", o.max_views, "", "stop after this many scans");
   field("max-distance", o.max_distance, "m", "stop when this much has been travelled");
