@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   vantage::app::add_config(program);
   vantage::app::add_export(program);
   vantage::app::add_objects(program);
+  vantage::app::add_view(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help and --version

@@ -8,6 +8,8 @@
 
 #include "vantage/io/html_page.hpp"
 #include "vantage/io/report.hpp"
+#include "vantage/io/run_scene.hpp"
+#include "vantage/io/software_renderer.hpp"
 #include "vantage/io/svg_plot.hpp"
 
 namespace vantage {
@@ -51,33 +53,6 @@ std::string tiles(const ReportData& data) {
   return text + "</dl>\n";
 }
 
-/// Height along `up` of the lowest point of the solids.
-std::optional<double> floor_under(const PictureScene& scene, const Vec3& up) {
-  std::optional<double> lowest;
-  for (const PictureScene::Facet& facet : scene.facets)
-    if (facet.finish != PictureScene::Finish::marker)
-      for (const Vec3f& corner : facet.corner) {
-        const double height = corner.cast<double>().dot(up.normalized());
-        lowest = lowest ? std::min(*lowest, height) : height;
-      }
-  for (const PictureScene::Disc& disc : scene.discs) {
-    const double height = disc.center.cast<double>().dot(up.normalized());
-    lowest = lowest ? std::min(*lowest, height) : height;
-  }
-  return lowest;
-}
-
-/// A direction `turn` degrees around `up` from the front, `rise` degrees above the horizon.
-Vec3 side(const Vec3& up, double turn, double rise) {
-  const Vec3 z = up.normalized();
-  Vec3 front = -Vec3::UnitY() + Vec3::UnitY().dot(z) * z;
-  if (front.norm() < 0.5) front = Vec3::UnitZ() - Vec3::UnitZ().dot(z) * z;
-  front.normalize();
-  const Vec3 right = front.cross(z).normalized() * -1;
-  const double a = radians(turn), b = radians(rise);
-  return std::cos(b) * (std::cos(a) * front + std::sin(a) * right) + std::sin(b) * z;
-}
-
 std::string captioned(const std::string& picture, std::string_view name) {
   return fmt::format("<div>{}<span>{}</span></div>\n", picture, escape_markup(name));
 }
@@ -86,7 +61,7 @@ std::string views_section(const ReportData& data, Captions& captions) {
   if (data.scans.empty()) return "";
   const PictureScene scene = views_scene(data);
   const RenderOptions options{.width = 1040, .height = 600};
-  const PictureCamera camera = camera_around(scene, side(data.up, 28, 24), 1040.0 / 600, data.up);
+  const PictureCamera camera = camera_around(scene, side_of(data.up, 28, 24), 1040.0 / 600, data.up);
   std::string key = "The model among its views. ";
   key += "Cameras: the scans in their order from 0; line: the way of the sensor; dots: the candidate views.";
   if (std::any_of(data.scans.begin(), data.scans.end(), [](const ScanRecord& scan) { return !scan.merged; }))
@@ -108,7 +83,7 @@ std::string model_section(const ReportData& data, Captions& captions) {
                                 {"left", 295, 22}, {"above", 25, 68},  {"below", 25, -50}};
   std::string pictures = "<div class=\"three\">\n";
   for (const Look& look : looks) {
-    const PictureCamera camera = camera_around(scene, side(data.up, look.turn, look.rise), 400.0 / 320, data.up);
+    const PictureCamera camera = camera_around(scene, side_of(data.up, look.turn, look.rise), 400.0 / 320, data.up);
     pictures += captioned(image(render(scene, sky, camera, options), "The model, " + look.name), look.name);
   }
   const bool mesh = data.mesh != nullptr && !data.mesh->triangles.empty();
@@ -137,7 +112,7 @@ std::string voxel_section(const ReportData& data, Captions& captions) {
   for (const Look& look : looks) {
     PictureScene scene;
     add_voxels(scene, map, look.paint);
-    if (!camera) camera = camera_around(scene, side(data.up, 25, 28), 400.0 / 320, data.up);
+    if (!camera) camera = camera_around(scene, side_of(data.up, 25, 28), 400.0 / 320, data.up);
     if (!sky) sky.emplace(scene);
     const RenderOptions options{.width = 400, .height = 320};
     pictures += captioned(image(render(scene, *sky, *camera, options), look.name), look.name);

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "vantage/io/report_data.hpp"
-#include "vantage/io/software_renderer.hpp"
 
 namespace vantage {
 
@@ -21,11 +20,5 @@ namespace vantage {
 
 /// What the run came to in one sentence: views, coverage, distance and why it stopped.
 [[nodiscard]] std::string report_summary(const ReportData& data);
-
-/// The model as a solid: the mesh, or else the cloud, or else the occupied voxels. Empty where there is none of them.
-[[nodiscard]] PictureScene model_scene(const ReportData& data);
-
-/// The model among the views of the run: candidates as dots, the views taken as numbered cameras, the way between them.
-[[nodiscard]] PictureScene views_scene(const ReportData& data);
 
 }  // namespace vantage

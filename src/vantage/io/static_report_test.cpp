@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/io/markup_test_util.hpp"
+#include "vantage/io/run_scene.hpp"
 
 namespace vantage {
 namespace {

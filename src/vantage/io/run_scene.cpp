@@ -1,4 +1,7 @@
-#include "vantage/io/static_report.hpp"
+#include "vantage/io/run_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
@@ -57,6 +60,30 @@ PictureScene views_scene(const ReportData& data) {
     scene.badges.push_back({center + 1.09 * (places.back() - center), scan.scan, paint});
   }
   return scene;
+}
+
+std::optional<double> floor_under(const PictureScene& scene, const Vec3& up) {
+  std::optional<double> lowest;
+  const Vec3 z = up.normalized();
+  const auto take = [&](const Vec3f& point) {
+    const double height = point.cast<double>().dot(z);
+    lowest = lowest ? std::min(*lowest, height) : height;
+  };
+  for (const PictureScene::Facet& facet : scene.facets)
+    if (facet.finish != PictureScene::Finish::marker)
+      for (const Vec3f& corner : facet.corner) take(corner);
+  for (const PictureScene::Disc& disc : scene.discs) take(disc.center);
+  return lowest;
+}
+
+Vec3 side_of(const Vec3& up, double turn, double rise) {
+  const Vec3 z = up.normalized();
+  Vec3 front = -Vec3::UnitY() + Vec3::UnitY().dot(z) * z;
+  if (front.norm() < 0.5) front = Vec3::UnitZ() - Vec3::UnitZ().dot(z) * z;  // `up` is about y
+  front.normalize();
+  const Vec3 right = z.cross(front);
+  const double a = radians(turn), b = radians(rise);
+  return std::cos(b) * (std::cos(a) * front + std::sin(a) * right) + std::sin(b) * z;
 }
 
 }  // namespace vantage
