@@ -72,8 +72,10 @@ TEST_F(StoredRunTest, DrawsWhatIsAskedFor) {
   for (const std::string& subject : run_picture_subjects()) {
     const Picture picture = draw(run, {.show = subject, .width = 90, .height = 60});
     EXPECT_EQ(picture.width, 90);
-    const auto corner = picture.at(0, 0), middle = picture.at(45, 30);
-    EXPECT_TRUE(corner != middle || subject == "views") << subject;
+    int drawn = 0;  // pixels unlike the corner, which is background
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) drawn += picture.at(x, y) == picture.at(0, 0) ? 0 : 1;
+    EXPECT_GT(drawn, 20) << subject;
     pictures.push_back(png_bytes(picture));
   }
   std::sort(pictures.begin(), pictures.end());
