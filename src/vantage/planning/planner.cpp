@@ -84,10 +84,10 @@ std::vector<Evaluation> Planner::search(const ViewEvaluation& problem, const std
   return exhaustive_search(problem, feasible, {RayChoice::Kind::ideal, {}});
 }
 
-void Planner::expect_errors(std::vector<Evaluation>& evaluations) const {
+void Planner::expect_errors(std::vector<Evaluation>& evaluations, const PositioningError& error) const {
   std::vector<double> utilities(candidates_.views.size(), 0.0);
   for (const Evaluation& each : evaluations) utilities[static_cast<std::size_t>(each.candidate)] = each.utility;
-  const std::vector<double> expected = convolve(utilities, candidates_, *options_.expected_error, options_.convolution);
+  const std::vector<double> expected = convolve(utilities, candidates_, error, options_.convolution);
   for (Evaluation& each : evaluations) each.score = expected[static_cast<std::size_t>(each.candidate)];
   rank(evaluations);
 }
@@ -123,7 +123,7 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
                         : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
     return std::nullopt;
   }
-  if (options_.expected_error) expect_errors(plan.ranking);
+  if (options_.expected_error) expect_errors(plan.ranking, *options_.expected_error);
   plan.best = plan.ranking.front();
   plan.explanation = explain(plan.best, plan.ranking.size(),
                              angle_seen_from(candidates_.center, current.position(), plan.best.view.position()));

@@ -65,7 +65,7 @@ class Planner {
  private:
   [[nodiscard]] std::optional<std::string> why_excluded(const VoxelMap& map, int candidate) const;
   [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible) const;
-  void expect_errors(std::vector<Evaluation>& evaluations) const;
+  void expect_errors(std::vector<Evaluation>& evaluations, const PositioningError& error) const;
 
   Candidates candidates_;
   RangeCamera camera_;

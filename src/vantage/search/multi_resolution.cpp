@@ -45,6 +45,7 @@ std::vector<Evaluation> multi_resolution_search(const ViewEvaluation& problem, s
   std::vector<Evaluation> evaluations;
   for (int i = 1; i <= k; ++i) {
     std::vector<Resolution> resolutions;  // R_i, eq. 15
+    resolutions.reserve(views.size());
     for (const int candidate : views) {
       resolutions.push_back(stage_resolution(problem.ideal(candidate), options.min_columns, i, k));
     }
