@@ -155,7 +155,7 @@ class Reconstruction(CommandLine):
             self.assertEqual(float(row["coverage"]), scan["coverage"])
             self.assertEqual(row["reason"], scan["reason"])
             self.assertAlmostEqual(sum(float(row[f"registered_q{a}"]) ** 2 for a in "xyzw"), 1, 9)
-        for name in ("config.yaml", "map.nrrd", "map.ply", "model.ply", "timings.json", "report.html"):
+        for name in ("config.yaml", "map.nrrd", "map.ply", "model.ply", "mesh.ply", "timings.json", "report.html"):
             self.assertGreater((out / name).stat().st_size, 0, name)
         self.assertEqual(len(list((out / "scans").glob("*.depth.png"))), summary["views"])
         report = (out / "report.html").read_text()

@@ -8,10 +8,12 @@
 #include "vantage/io/atomic_file.hpp"
 #include "vantage/io/depth_image.hpp"
 #include "vantage/io/map_file.hpp"
+#include "vantage/io/mesh_file.hpp"
 #include "vantage/io/point_cloud_file.hpp"
 #include "vantage/io/pose_file.hpp"
 #include "vantage/io/report.hpp"
 #include "vantage/io/static_report.hpp"
+#include "vantage/io/surface_mesh.hpp"
 
 namespace vantage {
 
@@ -96,6 +98,8 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
 void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
                              double total_seconds) {
   const PointCloud cloud = object_cloud(model);
+  const TriangleMesh mesh = surface_mesh(cloud);
+  if (!mesh.triangles.empty()) write_mesh_ply(path_ / "mesh.ply", mesh);
   ReportData pictures;
   pictures.object = description_.object;
   pictures.command = description_.command;
@@ -107,6 +111,7 @@ void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary
   pictures.stop_reason = summary.stop_reason;
   pictures.map = &model.map;
   pictures.cloud = &cloud;
+  pictures.mesh = &mesh;
   pictures.layers = layers_;
   pictures.seconds = total_seconds;
 
@@ -116,6 +121,7 @@ void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary
   data_.enclosure = model.map.enclosure();
   if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
   if (description_.truth) data_.truth = *description_.truth;
+  data_.mesh = mesh;
   data_.finish(model, summary.stop_reason);
   data_.static_html = static_report_body(pictures);
   write_file_atomically(path_ / "report.html", report_html(data_));
