@@ -32,7 +32,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// The text of a value: a scalar, or a flat list as its items with commas between.
 std::string value_text(const YAML::Node& value, std::string_view key, const std::string& name) {
-  if (value.IsNull()) return "none";
+  if (value.IsNull()) return std::string(no_value);
   if (value.IsScalar()) return value.Scalar();
   std::string text;
   for (std::size_t i = 0; value.IsSequence() && i < value.size(); ++i) {

@@ -29,19 +29,41 @@ struct OptionField {
   std::function<std::string()> text;          // the value now
 };
 
+/// How an option is read and shown; an optional one may be `none`.
+template <class T>
+struct OptionValue {
+  static std::string print(const T& value) { return TextValue<T>::print(value); }
+  static std::string expected() { return TextValue<T>::expected(); }
+  /// False, and no change, where the text is not understood.
+  static bool assign(T& member, std::string_view text) {
+    const auto value = TextValue<T>::parse(text);
+    if (value) member = *value;
+    return value.has_value();
+  }
+};
+
+template <class T>
+struct OptionValue<std::optional<T>> {
+  static std::string print(const std::optional<T>& value) {
+    return value ? TextValue<T>::print(*value) : std::string(no_value);
+  }
+  static std::string expected() { return TextValue<T>::expected() + ", or none"; }
+  static bool assign(std::optional<T>& member, std::string_view text) {
+    const auto value = text == no_value ? std::nullopt : TextValue<T>::parse(text);
+    if (value || text == no_value) member = value;
+    return value || text == no_value;
+  }
+};
+
 /// Makes fields of what describe() tells.
 class OptionCollector {
  public:
   template <class T>
   void operator()(std::string_view name, T& member, std::string_view unit, std::string_view meaning) {
     fields.push_back({std::string(name), std::string(unit), std::string(meaning), kind_of<T>(),
-                      TextValue<T>::expected(),
-                      [&member](std::string_view text) {
-                        const auto value = TextValue<T>::parse(text);
-                        if (value) member = *value;
-                        return value.has_value();
-                      },
-                      [&member] { return TextValue<T>::print(member); }});
+                      OptionValue<T>::expected(),
+                      [&member](std::string_view text) { return OptionValue<T>::assign(member, text); },
+                      [&member] { return OptionValue<T>::print(member); }});
   }
 
   std::vector<OptionField> fields;

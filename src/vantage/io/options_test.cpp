@@ -81,8 +81,6 @@ TEST(TextValue, EveryTypeIsPrintedAndParsed) {
                                      "none", "exhaustive", "320x320"));
   EXPECT_EQ(TextValue<Vec3>::parse(" 1, -2.5 ,3e-2"), Vec3(1, -2.5, 0.03));
   EXPECT_EQ(TextValue<bool>::parse("off"), false);
-  EXPECT_EQ(TextValue<std::optional<int>>::parse("7"), std::optional<int>(7));
-  EXPECT_EQ(TextValue<std::optional<int>>::parse("none"), std::optional<std::optional<int>>(std::optional<int>()));
   for (const char* bad : {"", "1,2", "1,2,3,4", "1,,3", "1,2,x", "1 2 3", "1,2,nan"})
     EXPECT_FALSE(TextValue<Vec3>::parse(bad)) << bad;
   for (const char* bad : {"", "320", "x", "0x3", "-1x3", "3x", "3x4x5", "1.5x2"})

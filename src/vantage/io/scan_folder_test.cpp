@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "vantage/io/atomic_file.hpp"
+#include "vantage/io/conf_file.hpp"
 #include "vantage/io/depth_image.hpp"
 #include "vantage/io/io_test_util.hpp"
 #include "vantage/io/mesh_file.hpp"

@@ -136,21 +136,7 @@ struct TextValue<E> {
   }
 };
 
-/// `none` is no value.
-template <class T>
-struct TextValue<std::optional<T>> {
-  static constexpr std::string_view none = "none";
-
-  static std::string print(const std::optional<T>& value) {
-    return value ? TextValue<T>::print(*value) : std::string(none);
-  }
-  static std::optional<std::optional<T>> parse(std::string_view text) {
-    if (text == none) return std::optional<T>();
-    std::optional<T> value = TextValue<T>::parse(text);
-    if (!value) return std::nullopt;
-    return std::make_optional(std::move(value));
-  }
-  static std::string expected() { return TextValue<T>::expected() + ", or none"; }
-};
+/// An option may be without a value; it then reads `none`.
+inline constexpr std::string_view no_value = "none";
 
 }  // namespace vantage
