@@ -108,7 +108,7 @@ std::string curve(const svg::PlotArea& area, const LineSeries& series, std::size
       marks += svg::mark(area.at_x(series.x[i]), area.at_y(series.y[i]), k);
       if (series.low.empty() || !std::isfinite(series.low[i]) || !std::isfinite(series.high[i])) continue;
       upper += fmt::format("{}{} {}", upper.empty() ? "M" : "L", x, number(area.at_y(series.high[i])));
-      lower = fmt::format("L{} {}", x, number(area.at_y(series.low[i]))) + lower;
+      lower.insert(0, fmt::format("L{} {}", x, number(area.at_y(series.low[i]))));
     }
     if (!upper.empty())
       bands += fmt::format("<path class=\"band f{}\" d=\"{}{}z\"/>\n", k % series_styles, upper, lower);
