@@ -1,4 +1,5 @@
 #include "vantage/visibility/splat_kernel.hpp"
+#include "vantage/visibility/tally_kernel.hpp"
 #include "vantage/visibility/vector_avx2.hpp"
 
 namespace vantage {

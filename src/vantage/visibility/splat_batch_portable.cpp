@@ -1,4 +1,5 @@
 #include "vantage/visibility/splat_kernel.hpp"
+#include "vantage/visibility/tally_kernel.hpp"
 #include "vantage/visibility/vector_portable.hpp"
 
 namespace vantage {
