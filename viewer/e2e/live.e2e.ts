@@ -17,9 +17,12 @@ beforeEach(async () => {
   server = new MockServer(template(), run);
   await server.start();
 });
-afterEach(() => server.stop());
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  await server.stop();
+});
 
-const open = (): Promise<Watched> => openPage(browser, server.url, { offline: false });
+const open = (): Promise<Watched> => openPage(browser, server.url, { offline: false, width: 800, height: 560 });
 const scans = (page: Page, count: number) =>
   page.waitForFunction((n) => window.vantage!.session.run.scans.length === n, count);
 const own = (requests: string[]) => requests.every((r) => r.startsWith(`${server.url}api/`));

@@ -42,8 +42,9 @@ export class MockServer {
   /** Drops all connections, as a server that ends. */
   async stop(): Promise<void> {
     this.listeners.clear();
-    this.server?.closeAllConnections();
-    await new Promise<void>((done) => this.server!.close(() => done()));
+    const closed = new Promise<void>((done) => this.server!.close(() => done()));
+    this.server!.closeAllConnections();
+    await closed;
   }
 
   /** The next scan was taken: the scan and the plan made after it. */

@@ -36,7 +36,7 @@ export interface PageOptions {
 }
 
 export async function openPage(browser: Browser, url: string, options: PageOptions = {}): Promise<Watched> {
-  const { width = 1100, height = 640, scheme = "light", offline = true, javaScript = true, touch = false } = options;
+  const { width = 960, height = 600, scheme = "light", offline = true, javaScript = true, touch = false } = options;
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme: scheme,
