@@ -37,6 +37,8 @@ void ScanPlanOptions::validate() const {
   require(!voxel || *voxel > 0, "voxel = ", voxel.value_or(0), " m: must be positive");
   require(!radius || *radius > 0, "radius = ", radius.value_or(0), " m: must be positive");
   require(pose_error > 0, "pose-error = ", pose_error, " m: must be positive; use registration none for exact poses");
+  require(pose_angle_error > 0 && pose_angle_error <= 90, "pose-angle-error = ", pose_angle_error,
+          " degrees: must be in (0, 90]");
   require(surroundings >= 0, "surroundings = ", surroundings, ": must not be negative");
   require(registration == "icp" || registration == "none", "registration = '", registration,
           "': must be icp or none (the truth is known in simulation only)");

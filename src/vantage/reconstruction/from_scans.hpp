@@ -15,6 +15,7 @@ struct ScanPlanOptions {
   std::optional<double> radius;      // of the view sphere, metres; the sensor's mean distance if not given
   int views = 80;                    // on the view sphere
   std::string registration = "icp";  // icp or none
+  double pose_angle_error = 5;       // degrees
   double pose_error = 0.05;          // metres; poses are off by no more than this
   double surroundings = 0.5;         // around the box, as a share of its longest side: what registration may use
 
@@ -29,6 +30,7 @@ void describe(ScanPlanOptions& o, Field&& field) {
   field("views", o.views, "", "candidates on the view sphere: 20*4^k");
   field("registration", o.registration, "", "icp, or none to take the poses as they are");
   field("pose-error", o.pose_error, "m", "how far off the poses may be at most");
+  field("pose-angle-error", o.pose_angle_error, "degrees", "how far turned the poses may be at most");
   field("surroundings", o.surroundings, "box sides",
         "how far around the box things stand still, so that registration may use them");
 }

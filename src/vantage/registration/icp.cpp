@@ -77,10 +77,17 @@ IcpResult align(const IcpLevel& level, const Pose& start, const Pose& believed, 
     std::vector<PlanePair> pairs = level.pairs(result.world_from_sensor, settings.max_distance);
     if (pairs.size() < least_pairs) return result;
     weigh(pairs, 0.01 * level.cell(), level.cell());
-    const NormalEquations equations = normal_equations(pairs, frame);
+    const Vec6 from_believed = frame.step(believed, result.world_from_sensor);
+    NormalEquations equations = normal_equations(pairs, frame);
+    equations.matrix += settings.trust * Mat6::Identity();
+    equations.right_side -= settings.trust * from_believed;
     if (i < settled) result.directions = directions(equations, settings.least_resistance);
-    const Vec6 step = solve(equations, result.directions, frame.step(believed, result.world_from_sensor));
+    const Vec6 step = solve(equations, result.directions, from_believed, settings.cost);
     result.world_from_sensor = frame.motion(step) * result.world_from_sensor;
+    const Vec6 moved = frame.step(believed, result.world_from_sensor);
+    if (moved.norm() > settings.farthest) {
+      result.world_from_sensor = frame.motion(moved * (settings.farthest / moved.norm())) * believed;
+    }
     if (step.norm() < still) {
       result.converged = true;
       break;

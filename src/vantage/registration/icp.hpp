@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "vantage/registration/normal_equations.hpp"
@@ -34,6 +35,10 @@ struct IcpSettings {
   double max_distance = 0;      // between partners, metres
   double least_resistance = 0;  // see directions()
   int max_iterations = 0;
+  /// From the believed pose that is plausible, metres (RMS over the scan's points).
+  double farthest = std::numeric_limits<double>::infinity();
+  Vec6 cost = rotation_averse_cost();  // of moving along open directions, see solve()
+  double trust = 0;                    // in the believed pose, as resistance to moving away from it
 };
 
 struct IcpResult {

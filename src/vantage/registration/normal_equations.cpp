@@ -90,7 +90,15 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> Directions::columns(bool wanted) const 
   return found;
 }
 
-Vec6 solve(const NormalEquations& equations, const Directions& directions, const Vec6& from_believed) {
+Vec6 rotation_averse_cost() {
+  constexpr double rotation_cost = 100;  // turning a sphere about its centre must not pass for a shift of the scan
+  Vec6 cost;
+  cost << Vec3::Ones(), Vec3::Constant(rotation_cost * rotation_cost);
+  return cost;
+}
+
+Vec6 solve(const NormalEquations& equations, const Directions& directions, const Vec6& from_believed,
+           const Vec6& cost) {
   Vec6 step = Vec6::Zero();
   const Eigen::Matrix<double, 6, Eigen::Dynamic> determined = directions.determined();
   if (determined.cols() > 0) {
@@ -100,9 +108,6 @@ Vec6 solve(const NormalEquations& equations, const Directions& directions, const
   }
   const Eigen::Matrix<double, 6, Eigen::Dynamic> open = directions.open();
   if (open.cols() > 0) {
-    constexpr double rotation_cost = 100;  // turning a sphere about its centre must not pass for a shift of the scan
-    Vec6 cost;
-    cost << Vec3::Ones(), Vec3::Constant(rotation_cost * rotation_cost);
     const Eigen::MatrixXd normal = open.transpose() * cost.asDiagonal() * open;
     const Eigen::VectorXd side = -(open.transpose() * cost.asDiagonal() * (from_believed + step));
     step += open * normal.ldlt().solve(side);

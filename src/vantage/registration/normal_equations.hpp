@@ -69,9 +69,14 @@ class Directions {
 /// A direction is open where the surface resists the motion with a mean squared cosine below `least_resistance`.
 [[nodiscard]] Directions directions(const NormalEquations& equations, double least_resistance);
 
+/// Prices of the components of a motion by which open directions are settled: any rotation costs far more than any
+/// shift.
+[[nodiscard]] Vec6 rotation_averse_cost();
+
 /// The Gauss-Newton step in the determined directions. Of all steps that fit the data equally it is the one after which
 /// `from_believed + step` is smallest, rotation counting far more than translation, so that a sphere keeps its
 /// orientation and a plane also its place along itself.
-[[nodiscard]] Vec6 solve(const NormalEquations& equations, const Directions& directions, const Vec6& from_believed);
+[[nodiscard]] Vec6 solve(const NormalEquations& equations, const Directions& directions, const Vec6& from_believed,
+                         const Vec6& cost = rotation_averse_cost());
 
 }  // namespace vantage

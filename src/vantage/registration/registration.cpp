@@ -48,19 +48,6 @@ std::vector<double> cells(const PointCloud& scan, const Scale& scale, const Regi
   return cells;
 }
 
-/// The believed pose and poses shifted from it by half the search radius along the axes.
-std::vector<Pose> starts(const Pose& believed, double search_radius) {
-  std::vector<Pose> poses{believed};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) {
-      Pose shifted = believed;
-      shifted.translation()[axis] += sign * search_radius / 2;
-      poses.push_back(shifted);
-    }
-  }
-  return poses;
-}
-
 struct Hypothesis {
   IcpResult result;
   double score = 0;
@@ -135,16 +122,36 @@ class Search {
   static constexpr double free_space_margin_in_cells = 2;
 
   [[nodiscard]] IcpSettings settings(const IcpLevel& level, double max_distance_in_cells) const {
-    return {.max_distance = max_distance_in_cells * level.cell(),
-            .least_resistance = options_.least_resistance,
-            .max_iterations = options_.max_iterations};
+    IcpSettings settings{.max_distance = max_distance_in_cells * level.cell(),
+                         .least_resistance = options_.least_resistance,
+                         .max_iterations = options_.max_iterations};
+    if (options_.trust > 0) {
+      settings.trust = options_.trust;
+      settings.farthest = farthest();
+      settings.cost = believed_errors().cwiseAbs2().cwiseInverse();
+    }
+    return settings;
+  }
+
+  /// The believed pose and, unless it is trusted, poses shifted from it by half the search radius along the axes.
+  [[nodiscard]] std::vector<Pose> starts() const {
+    std::vector<Pose> poses{believed_};
+    if (options_.trust > 0) return poses;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {-1.0, 1.0}) {
+        Pose shifted = believed_;
+        shifted.translation()[axis] += sign * scale_.search_radius / 2;
+        poses.push_back(shifted);
+      }
+    }
+    return poses;
   }
 
   /// Poses from all starts at the coarsest level, best first, doubles left out.
   [[nodiscard]] std::vector<Hypothesis> coarse_hypotheses() const {
     const IcpLevel& level = levels_.front();
     std::vector<Hypothesis> found;
-    for (const Pose& start : starts(believed_, scale_.search_radius)) {
+    for (const Pose& start : starts()) {
       Hypothesis hypothesis{align(level, start, believed_, scale_.frame, settings(level, 4))};
       hypothesis.score = score(level, hypothesis.result.world_from_sensor);
       const auto twin = [&](const Hypothesis& other) {
@@ -223,7 +230,7 @@ class Search {
       return refuse(Verdict::large_residual, "the overlap lies ", millimetres(fit.residual),
                     " mm (RMS) off the model; at most ", millimetres(limit), " mm may be");
     }
-    if (may_be_off > cell) {
+    if (may_be_off > options_.largest_open_misfit.value_or(cell)) {
       return refuse(Verdict::degenerate, "the overlap leaves ", registration.undetermined_directions,
                     " directions open in which the believed pose may put surfaces ", millimetres(may_be_off),
                     " mm off");
@@ -280,6 +287,9 @@ void RegistrationOptions::validate() const {
   require(least_resistance > 0 && least_resistance < 1, "least_resistance = ", least_resistance, ": must be in (0, 1)");
   require(largest_share_in_free_space >= 0 && largest_share_in_free_space <= 1,
           "largest_share_in_free_space = ", largest_share_in_free_space, ": must be in [0, 1]");
+  require(!largest_open_misfit || *largest_open_misfit > 0, "largest_open_misfit = ", largest_open_misfit.value_or(0),
+          " m: must be positive");
+  require(trust >= 0 && trust < 1, "trust = ", trust, ": must be in [0, 1)");
   require(orientation_error > 0, "orientation_error = ", orientation_error, " rad: must be positive");
   require(ambiguity > 0 && ambiguity <= 1, "ambiguity = ", ambiguity, ": must be in (0, 1]");
 }

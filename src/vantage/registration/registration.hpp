@@ -34,6 +34,12 @@ struct RegistrationOptions {
   /// Standard deviation of the believed orientation about each axis, radians. Undetermined directions keep what is
   /// believed; where that may put surfaces visibly off each other, the scan is refused as degenerate.
   double orientation_error = radians(1);
+  /// Directions that the surface leaves open keep what is believed of them; where that may put surfaces farther off
+  /// each other than this, metres, the scan is refused as degenerate. A side of the finest surfels where not given.
+  std::optional<double> largest_open_misfit;
+  /// Resistance to moving away from the believed pose, in the unit of least_resistance. 0: the surfaces alone decide,
+  /// which suits clean scans; with noise and outliers a little trust keeps weakly held directions from following them.
+  double trust = 0;
   /// Largest share of the scan's points that may lie in space which earlier range images show to be empty, or of the
   /// model's points in space which this scan's range image shows to be empty.
   double largest_share_in_free_space = 0.01;
