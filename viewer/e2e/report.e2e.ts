@@ -35,6 +35,7 @@ describe("a report from disk, without a network", () => {
     expect(statSync(report).size).toBeLessThan(5e6);
     const context = await browser.newContext();
     const page = await context.newPage();
+    page.setDefaultTimeout(180_000);
     const cdp = await context.newCDPSession(page);
     await cdp.send("Performance.enable");
     await page.goto(`file://${report}`);
