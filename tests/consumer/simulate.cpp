@@ -13,13 +13,14 @@ int main() {
   const RangeScanner scanner(make_object("mug"));
   const RangeCamera camera = camera_from_apertures(radians(45), radians(45), {160, 160});
   const View view = view_towards({0, -2, 0.5}, Vec3::Zero());
-  const PointCloud scan = points_of(scan_of(scanner.scan(camera, view)));
+  const Scan frame = scan_of(scanner.scan(camera, view));
+  const PointCloud scan = points_of(frame);
 
   ModelSurface model(0.005);
   model.merge(scan, view.world_from_sensor);
   View believed = view;
   believed.world_from_sensor.pretranslate(Vec3(0.005, 0, 0));
-  const Located located = IcpRegistrar().locate(model, scan, believed);
+  const Located located = IcpRegistrar().locate(model, frame, scan, believed);
   const double error = (located.view.position() - view.position()).norm();
   std::printf("%zu points, %s, pose within %.2f mm\n", scan.size(), located.verdict.c_str(), 1000 * error);
 

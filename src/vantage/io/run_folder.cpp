@@ -119,10 +119,10 @@ void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary
   data_.simulated = description_.truth.has_value();
   data_.grid = model.map.grid();
   data_.enclosure = model.map.enclosure();
-  if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
   if (description_.truth) data_.truth = *description_.truth;
   data_.mesh = mesh;
   data_.finish(model, summary.stop_reason);
+  if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
   data_.static_html = static_report_body(pictures);
   write_file_atomically(path_ / "report.html", report_html(data_));
 }
