@@ -63,10 +63,11 @@ RangeCamera camera_for(const Request& request, const ScanSet& set) {
 std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& fitted) {
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
   RegistrationOptions registration;
-  // Real frames are noisy, and a robot's poses are good: what the surfaces leave open stays as the robot says.
+  // Real frames are noisy: surfels of two voxels average that out. And a robot's poses are good: what the surfaces leave open stays as the robot says.
   registration.search_radius = options.pose_error;
   registration.orientation_error = radians(options.pose_angle_error) / 3;
   registration.spacing = fitted.scene.voxel_length;
+  registration.finest_cell_in_spacings = 2;
   registration.trust = 0.01;
   registration.largest_open_misfit = options.pose_error;
   registration.largest_share_in_free_space = 0.2;
