@@ -63,7 +63,8 @@ RangeCamera camera_for(const Request& request, const ScanSet& set) {
 std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& fitted) {
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
   RegistrationOptions registration;
-  // Real frames are noisy: surfels of two voxels average that out. And a robot's poses are good: what the surfaces leave open stays as the robot says.
+  // Real frames are noisy: surfels of two voxels average that out. And a robot's poses are good: what the surfaces
+  // leave open stays as the robot says.
   registration.search_radius = options.pose_error;
   registration.orientation_error = radians(options.pose_angle_error) / 3;
   registration.spacing = fitted.scene.voxel_length;
