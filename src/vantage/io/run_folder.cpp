@@ -11,7 +11,6 @@
 #include "vantage/io/mesh_file.hpp"
 #include "vantage/io/point_cloud_file.hpp"
 #include "vantage/io/pose_file.hpp"
-#include "vantage/io/report.hpp"
 #include "vantage/io/static_report.hpp"
 #include "vantage/io/surface_mesh.hpp"
 
@@ -80,8 +79,6 @@ RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
 void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
   if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path_ / "scans", record, image->image);
   data_.add_scan(record, model, plan);
-  const int middle = (model.map.enclosure().min.z() + model.map.enclosure().max.z()) / 2;
-  layers_.emplace_back(record.scan, label_layer(model.map, middle));
 }
 
 void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
@@ -97,24 +94,8 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
 
 void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
                              double total_seconds) {
-  const PointCloud cloud = object_cloud(model);
-  const TriangleMesh mesh = surface_mesh(cloud);
+  const TriangleMesh mesh = surface_mesh(object_cloud(model));
   if (!mesh.triangles.empty()) write_mesh_ply(path_ / "mesh.ply", mesh);
-  ReportData pictures;
-  pictures.object = description_.object;
-  pictures.command = description_.command;
-  pictures.program = description_.program;
-  pictures.options = description_.options;
-  pictures.camera = description_.camera;
-  pictures.candidates = description_.candidates;
-  pictures.scans = model.scans;
-  pictures.stop_reason = summary.stop_reason;
-  pictures.map = &model.map;
-  pictures.cloud = &cloud;
-  pictures.mesh = &mesh;
-  pictures.layers = layers_;
-  pictures.seconds = total_seconds;
-
   data_.seed = summary.seed;
   data_.simulated = description_.truth.has_value();
   data_.grid = model.map.grid();
@@ -123,8 +104,7 @@ void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary
   data_.mesh = mesh;
   data_.finish(model, summary.stop_reason);
   if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
-  data_.static_html = static_report_body(pictures);
-  write_file_atomically(path_ / "report.html", report_html(data_));
+  write_file_atomically(path_ / "report.html", report_page(data_, model.map, total_seconds));
 }
 
 }  // namespace vantage

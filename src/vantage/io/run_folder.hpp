@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "vantage/io/report_data.hpp"
 #include "vantage/io/run_data.hpp"
 #include "vantage/io/run_files.hpp"
 
@@ -45,7 +44,6 @@ class RunFolder {
   std::filesystem::path path_;
   RunDescription description_;
   RunData data_;
-  std::vector<std::pair<int, LabelLayer>> layers_;
 };
 
 /// Points of the fused cloud that lie in the object's enclosure.

@@ -1,21 +1,9 @@
 #include "vantage/reconstruction/scan.hpp"
 
+#include "vantage/registration/scan_cloud.hpp"
+
 namespace vantage {
 namespace {
-
-PointCloud points_of_image(const ImageScan& scan) {
-  const RayGrid rays = scan.image.camera.rays();
-  PointCloud cloud;
-  std::size_t pixel = 0;
-  for (int row = 0; row < rays.resolution.rows; ++row) {
-    for (int column = 0; column < rays.resolution.columns; ++column, ++pixel) {
-      const float depth = scan.image.depth[pixel];
-      if (!RangeImage::is_hit(depth)) continue;
-      cloud.add(point_in_sensor(rays, column, row, static_cast<double>(depth)), scan.normals[pixel].cast<double>());
-    }
-  }
-  return cloud;
-}
 
 PointCloud points_of_lines(const PointScan& scan) {
   PointCloud cloud;
@@ -34,7 +22,7 @@ Scan scan_of(RangeImage image) {
 }
 
 PointCloud points_of(const Scan& scan) {
-  if (const auto* image = std::get_if<ImageScan>(&scan)) return points_of_image(*image);
+  if (const auto* image = std::get_if<ImageScan>(&scan)) return scan_cloud(image->image, image->normals);
   return points_of_lines(std::get<PointScan>(scan));
 }
 
