@@ -90,7 +90,7 @@ void add_evaluate(CLI::App& program) {
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
   std::vector<OptionField> fields = option_fields(request->place);
   for (OptionField& field : fields_named(option_fields(request->options), planning_option_names())) {
-    fields.push_back(std::move(field));
+    if (field.name != "deadline") fields.push_back(std::move(field));  // it evaluates every candidate
   }
   add_options(*command, std::as_const(fields));
   add_program_options(*command, request->program);

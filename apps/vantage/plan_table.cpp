@@ -70,6 +70,9 @@ nlohmann::ordered_json plan_json(const std::optional<Plan>& plan, const std::str
   nlohmann::ordered_json json;
   json["next"] = plan ? with_pose(plan->best) : nlohmann::ordered_json(nullptr);
   json["explanation"] = plan ? plan->explanation : why_finished;
+  // A deadline, like multi-resolution, evaluates fewer to the end than could be chosen.
+  json["evaluated"] = plan ? plan->ranking.size() : 0;
+  json["feasible"] = plan ? plan->feasible : 0;
   json["ranking"] = nlohmann::ordered_json::array();
   json["infeasible"] = nlohmann::ordered_json::array();
   if (plan) {

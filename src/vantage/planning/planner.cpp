@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/search/timed_search.hpp"
 
 namespace vantage {
 namespace {
@@ -15,8 +16,15 @@ bool meets_occplane(const std::vector<Evaluation>& evaluations, int at_most) {
                      [at_most](const Evaluation& e) { return e.seen.occplane > at_most; });
 }
 
-std::string explain(const Evaluation& best, std::size_t rivals, double angle) {
-  return concat("best of ", rivals, ": meets ", best.seen.occplane, " occplane voxels (", per_cent(best.factors.x_op),
+/// Of how many views it is the best, and how many there was no time for.
+std::string rivals(const Plan& plan, double deadline) {
+  const std::size_t seen = plan.ranking.size();
+  if (deadline == 0 || seen == plan.feasible) return concat("best of ", seen);
+  return concat("best of the ", seen, " of ", plan.feasible, " views seen within ", deadline, " ms");
+}
+
+std::string explain(const Evaluation& best, const std::string& rivals, double angle) {
+  return concat(rivals, ": meets ", best.seen.occplane, " occplane voxels (", per_cent(best.factors.x_op),
                 " % of what it sees), overlaps with ", best.seen.occupied, " occupied ones (",
                 per_cent(best.factors.x_oc), " %), ", std::round(degrees(angle)), " degrees from here");
 }
@@ -29,6 +37,13 @@ void PlannerOptions::validate() const {
   factors.validate();
   reach.validate();
   require(stop_occplane >= 0, "stop-occplane = ", stop_occplane, ": must not be negative");
+  require(deadline >= 0 && std::isfinite(deadline), "deadline = ", deadline,
+          " ms: must be positive, or 0 for no deadline");
+  require(deadline == 0 || search == SearchKind::exhaustive, "deadline = ", deadline,
+          " ms: needs the exhaustive search, because multi-resolution has no result before its last stage; leave one "
+          "of them out");
+  require(deadline == 0 || !expected_error, "deadline = ", deadline,
+          " ms: convolution after evaluation needs the utility of every view; leave one of them out");
   (void)utility_by_name(utility);
   convolution.validate();
   if (!expected_error) return;
@@ -76,7 +91,13 @@ std::optional<std::string> Planner::why_excluded(const VoxelMap& map, int candid
   return why_infeasible(map, candidates_.views[static_cast<std::size_t>(candidate)], options_.reach);
 }
 
-std::vector<Evaluation> Planner::search(const ViewEvaluation& problem, const std::vector<int>& feasible) const {
+std::vector<Evaluation> Planner::search(const ViewEvaluation& problem, const std::vector<int>& feasible,
+                                        std::chrono::steady_clock::time_point start) const {
+  if (options_.deadline > 0) {
+    const auto time = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double, std::milli>(std::min(options_.deadline, 1e12)));
+    return search_until({start + time, options_.stop_occplane}, problem, feasible, options_.rays);
+  }
   if (options_.search == SearchKind::exhaustive) return exhaustive_search(problem, feasible, options_.rays);
   std::vector<Evaluation> ranking = multi_resolution_search(problem, feasible, options_.multi_resolution);
   if (meets_occplane(ranking, options_.stop_occplane)) return ranking;
@@ -93,6 +114,7 @@ void Planner::expect_errors(std::vector<Evaluation>& evaluations, const Position
 }
 
 std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& current) {
+  const auto start = std::chrono::steady_clock::now();
   Plan plan;
   std::vector<int> feasible;
   for (int i = 0; i < static_cast<int>(candidates_.views.size()); ++i) {
@@ -116,7 +138,8 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   const VisibilityEvaluator visibility(map);
   const ViewEvaluation problem{visibility, camera_, candidates_,      map.grid().length,
                                travel(),   current, options_.factors, utility_};
-  plan.ranking = search(problem, feasible);
+  plan.feasible = feasible.size();
+  plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) {
     why_finished_ = options_.stop_occplane == 0
                         ? "no feasible view meets an occplane voxel any more"
@@ -125,7 +148,7 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   }
   if (options_.expected_error) expect_errors(plan.ranking, *options_.expected_error);
   plan.best = plan.ranking.front();
-  plan.explanation = explain(plan.best, plan.ranking.size(),
+  plan.explanation = explain(plan.best, rivals(plan, options_.deadline),
                              angle_seen_from(candidates_.center, current.position(), plan.best.view.position()));
   why_finished_.clear();
   return plan;

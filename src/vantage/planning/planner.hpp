@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ struct PlannerOptions {
   std::optional<PositioningError> expected_error;
   ConvolutionOptions convolution;
   int stop_occplane = 0;  // stop when no feasible view sees more occplane voxels than this
+  /// Milliseconds after which a plan is made of the views evaluated until then (search_until); 0: evaluate all. Needs
+  /// the exhaustive search without convolution. What is planned then depends on the clock.
+  double deadline = 0;
 
   void validate() const;
 };
@@ -38,6 +42,7 @@ struct Plan {
   Evaluation best;
   std::vector<Evaluation> ranking;     // views that were evaluated to the end, best first
   std::vector<Evaluation> infeasible;  // candidates that fell out, with the reason
+  std::size_t feasible = 0;            // candidates that could be chosen; more than are ranked where time ran out
   std::string explanation;             // one sentence for people
 };
 
@@ -64,7 +69,8 @@ class Planner {
 
  private:
   [[nodiscard]] std::optional<std::string> why_excluded(const VoxelMap& map, int candidate) const;
-  [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible) const;
+  [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible,
+                                               std::chrono::steady_clock::time_point start) const;
   void expect_errors(std::vector<Evaluation>& evaluations, const PositioningError& error) const;
 
   Candidates candidates_;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -153,6 +156,53 @@ TEST(Planner, RefusesToConvolveWhatMultiResolutionLeavesOut) {
   options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.1));
   options.search = SearchKind::multi_resolution;
   EXPECT_THROW(Planner(view_sphere(20, 2, Vec3::Zero()), camera, options), InputError);
+}
+
+TEST(Planner, MakesAPlanOfTheViewsThatItHadTimeFor) {
+  PlannerOptions options;
+  options.deadline = 1e-6;  // over before the first view
+  const Candidates candidates = view_sphere(320, 2, Vec3::Zero());
+  Planner planner(candidates, camera, options);
+  const VoxelMap map(small_scene());  // all unmarked: without occplane voxels no view is of use
+  EXPECT_FALSE(planner.next_best_view(map, candidates.views[0])) << "after all views were evaluated";
+  EXPECT_EQ(planner.why_finished(), "no feasible view meets an occplane voxel any more");
+
+  const auto plan = planner.next_best_view(map_with_hidden_voxel({20, 20, 20}), candidates.views[0]);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->feasible, 320U);
+  EXPECT_LT(plan->ranking.size(), 320U);
+  EXPECT_EQ(plan->best.seen.occplane, 1);
+  EXPECT_EQ(plan->explanation.rfind(concat("best of the ", plan->ranking.size(), " of 320 views seen within "), 0), 0U)
+      << plan->explanation;
+}
+
+TEST(Planner, PlansTheSameWithAndWithoutADeadlineThatIsFarOff) {
+  PlannerOptions options;
+  options.deadline = 1e18;
+  const Candidates candidates = view_sphere(80, 2, Vec3::Zero());
+  const VoxelMap map = map_with_well();
+  const auto timed = Planner(candidates, camera, options).next_best_view(map, candidates.views[0]);
+  const auto untimed = Planner(candidates, camera).next_best_view(map, candidates.views[0]);
+  ASSERT_TRUE(timed && untimed);
+  EXPECT_EQ(timed->best.candidate, untimed->best.candidate);
+  EXPECT_EQ(timed->explanation, untimed->explanation);
+  EXPECT_EQ(timed->ranking.size(), 80U);
+}
+
+TEST(Planner, RefusesADeadlineWhereViewsCannotBeLeftOut) {
+  PlannerOptions options;
+  options.deadline = 5;
+  options.search = SearchKind::multi_resolution;
+  EXPECT_THROW(options.validate(), InputError);
+  options.search = SearchKind::exhaustive;
+  EXPECT_NO_THROW(options.validate());
+  options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.1));
+  EXPECT_THROW(options.validate(), InputError);
+  options.expected_error.reset();
+  for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    options.deadline = bad;
+    EXPECT_THROW(options.validate(), InputError);
+  }
 }
 
 TEST(Planner, NamesUnknownUtilities) {

@@ -106,7 +106,8 @@ std::vector<std::string> planning_option_names() {
           "alpha-op",
           "rho",
           "navigation",
-          "stop-occplane"};
+          "stop-occplane",
+          "deadline"};
 }
 
 void ReconstructOptions::validate() const {
@@ -155,6 +156,7 @@ PlannerOptions ReconstructOptions::planner_options() const {
     result.convolution.normalise = convolve == "normalised";
   }
   result.stop_occplane = stop_occplane;
+  result.deadline = deadline;
   return result;
 }
 

@@ -53,6 +53,7 @@ struct ReconstructOptions {
   std::optional<double> max_distance;
   std::optional<double> max_time;
   int stop_occplane = 0;
+  double deadline = 0;
 
   /// Throws InputError naming the option.
   void validate() const;
@@ -108,6 +109,10 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("max-distance", o.max_distance, "m", "stop when this much has been travelled");
   field("max-time", o.max_time, "s", "stop after this long");
   field("stop-occplane", o.stop_occplane, "voxels", "stop when no view sees more occplane voxels than this");
+  field("deadline", o.deadline, "ms",
+        "longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; "
+        "0: "
+        "no deadline");
 }
 
 /// The options that decide how a view is planned on a given map: candidates, camera, utility, search and reach.

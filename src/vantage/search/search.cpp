@@ -1,6 +1,7 @@
 #include "vantage/search/search.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "vantage/core/error.hpp"
 
@@ -29,23 +30,47 @@ Resolution ViewEvaluation::resolution(int candidate, const RayChoice& rays) cons
   return camera.resolution;
 }
 
-std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_indices,
-                                                 std::span<const Resolution> resolutions) const {
+std::vector<View> ViewEvaluation::views_of(std::span<const int> candidate_indices) const {
   std::vector<View> views;
   views.reserve(candidate_indices.size());
   for (const int index : candidate_indices) views.push_back(candidates.views[static_cast<std::size_t>(index)]);
-  const std::vector<Visibility> seen = visibility.see(camera, views, resolutions);
+  return views;
+}
 
-  std::vector<Evaluation> evaluations(views.size());
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    Evaluation& evaluation = evaluations[i];
-    evaluation.candidate = candidate_indices[i];
-    evaluation.view = views[i];
-    evaluation.resolution = resolutions[resolutions.size() == 1 ? 0 : i];
-    evaluation.seen = seen[i];
-    evaluation.factors = factors(seen[i], travel.normalised(current.position(), views[i].position()), options);
-    evaluation.utility = utility(evaluation.seen, evaluation.factors);
-    evaluation.score = evaluation.utility;
+Evaluation ViewEvaluation::evaluation(int candidate, Resolution rays, const Visibility& seen) const {
+  Evaluation result;
+  result.candidate = candidate;
+  result.view = candidates.views[static_cast<std::size_t>(candidate)];
+  result.resolution = rays;
+  result.seen = seen;
+  result.factors = factors(seen, travel.normalised(current.position(), result.view.position()), options);
+  result.utility = utility(result.seen, result.factors);
+  result.score = result.utility;
+  return result;
+}
+
+std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_indices,
+                                                 std::span<const Resolution> resolutions) const {
+  const std::vector<Visibility> seen = visibility.see(camera, views_of(candidate_indices), resolutions);
+  std::vector<Evaluation> evaluations;
+  evaluations.reserve(seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], seen[i]));
+  }
+  return evaluations;
+}
+
+std::vector<Evaluation> ViewEvaluation::evaluate_until(std::chrono::steady_clock::time_point deadline,
+                                                       std::span<const int> candidate_indices,
+                                                       std::span<const Resolution> resolutions) const {
+  std::vector<std::size_t> order(candidate_indices.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::vector<std::optional<Visibility>> seen =
+      visibility.see_until(deadline, camera, views_of(candidate_indices), resolutions, order);
+  std::vector<Evaluation> evaluations;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i]) continue;
+    evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], *seen[i]));
   }
   return evaluations;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -56,6 +57,14 @@ struct ViewEvaluation {
   /// Evaluates the given candidates, each with its own resolution, in parallel.
   [[nodiscard]] std::vector<Evaluation> evaluate(std::span<const int> candidate_indices,
                                                  std::span<const Resolution> resolutions) const;
+  /// The same in the given order until the deadline, after which no view is begun: only those that were evaluated.
+  [[nodiscard]] std::vector<Evaluation> evaluate_until(std::chrono::steady_clock::time_point deadline,
+                                                       std::span<const int> candidate_indices,
+                                                       std::span<const Resolution> resolutions) const;
+
+ private:
+  [[nodiscard]] Evaluation evaluation(int candidate, Resolution resolution, const Visibility& seen) const;
+  [[nodiscard]] std::vector<View> views_of(std::span<const int> candidate_indices) const;
 };
 
 /// Descending score, ties by the lower candidate; where no score is above 0, descending n_op (spec, section 4).
