@@ -30,3 +30,12 @@ add_executable(vantage ${vantage_app_sources})
 target_link_libraries(vantage PRIVATE vantage_full vantage_build_settings fmt::fmt CLI11::CLI11)
 target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
 set_target_properties(vantage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+# `mpirun vantage experiment ...` spreads the runs over many processes where MPI is installed.
+find_package(MPI QUIET COMPONENTS CXX)
+option(VANTAGE_MPI "Let mpirun spread experiments over processes" ${MPI_CXX_FOUND})
+if(VANTAGE_MPI)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  target_link_libraries(vantage PRIVATE MPI::MPI_CXX)
+  target_compile_definitions(vantage PRIVATE VANTAGE_MPI OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+endif()

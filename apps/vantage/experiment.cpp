@@ -1,13 +1,17 @@
 #include <fmt/core.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 
 #include "cli_options.hpp"
 #include "commands.hpp"
+#include "executable_digest.hpp"
+#include "interrupt.hpp"
 #include "program_options.hpp"
+#include "program_ranks.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/experiments/experiments.hpp"
 #include "vantage/io/atomic_file.hpp"
@@ -22,41 +26,82 @@ struct Request {
   ProgramOptions program;
 };
 
+std::string span_of_time(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  return fmt::format("{:.0f} min", seconds / 60);
+}
+
+void print_progress(const SweepProgress& progress) {
+  const std::size_t finished = progress.done + progress.failed;
+  fmt::print(stderr, "\r{} stored, {} done, {} failed, {} remaining, {} left      ", progress.stored, progress.done,
+             progress.failed, progress.remaining, finished == 0 ? "? s" : span_of_time(progress.seconds_left));
+}
+
 void write_part(const std::filesystem::path& folder, const ExperimentReport::Part& part) {
   std::visit([&folder](const auto& p) { write_file_atomically(folder / (p.name + ".csv"), csv(p)); }, part);
 }
 
-void experiment(const Request& request) {
-  const auto threads = limit_threads(request.program.threads);
+/// How many of the runs have no outcome although nobody interrupted them.
+std::size_t failures_in(const std::vector<RunResult>& results) {
+  std::size_t failed = 0;
+  for (const RunResult& result : results) failed += result.outcome || result.interrupted ? 0 : 1;
+  return failed;
+}
+
+ExperimentReport write_report(const Request& request, const std::vector<Experiment>& experiments,
+                              const std::vector<RunResult>& results) {
   const std::filesystem::path folder(request.out);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(fmt::format("cannot create the output folder {}: {}", folder.string(), error.message()));
   ExperimentReport report;
   report.title = request.name == "all" ? "The paper's experiments" : request.name;
   report.program = fmt::format("vantage {}", VANTAGE_VERSION);
-  for (const std::string& name : request.name == "all" ? experiment_names() : std::vector<std::string>{request.name}) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [start] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    const auto progress = [&](std::size_t done, std::size_t all) {
-      if (!request.program.quiet)
-        fmt::print(stderr, "\r{}: {}/{} runs of this step, {:.0f} s ", name, done, all, seconds());
-    };
-    for (ExperimentReport::Part& part : run_experiment(name, request.options, progress)) {
-      write_part(folder, part);
-      report.parts.push_back(std::move(part));
-    }
-    if (!request.program.quiet) fmt::print(stderr, "\r{}: done in {:.1f} s                    \n", name, seconds());
-  }
+  report.parts = report_parts(experiments, results);
+  for (const ExperimentReport::Part& part : report.parts) write_part(folder, part);
   write_file_atomically(folder / "report.html", html(report));
   write_file_atomically(folder / "report.json", json(report).dump(2) + "\n");
+  return report;
+}
+
+/// The results on rank 0, nothing on the others.
+std::optional<std::vector<RunResult>> sweep(const Request& request, std::span<const SweepRun> runs, Ranks& ranks) {
+  SweepControl control;
+  control.interrupted = was_interrupted;
+  try {
+    if (ranks.rank() != 0) {
+      help_sweep(runs, ranks, control);
+      return std::nullopt;
+    }
+    if (!request.program.quiet) control.progress = print_progress;
+    const RunStore store(request.out, fmt::format("vantage {} {}", VANTAGE_VERSION, executable_digest()));
+    std::vector<RunResult> results = run_sweep(runs, store, ranks, control);
+    if (!request.program.quiet) fmt::print(stderr, "\n");
+    return results;
+  } catch (const std::exception& error) {
+    if (ranks.size() > 1) fmt::print(stderr, "vantage, rank {}: {}\n", ranks.rank(), error.what());
+    ranks.give_up();
+    throw;
+  }
+}
+
+void experiment(const Request& request) {
+  const auto threads = limit_threads(request.program.threads);
+  const std::vector<Experiment> experiments = make_experiments(request.name, request.options);
+  const std::vector<SweepRun> runs = runs_of(experiments);
+  catch_interrupts();
+  const std::unique_ptr<Ranks> ranks = program_ranks();
+  const auto results = sweep(request, runs, *ranks);
+  if (!results) return;
+  if (was_interrupted())
+    throw Error(fmt::format("interrupted; what is finished is kept in {}, the same command goes on", request.out));
+
+  const ExperimentReport report = write_report(request, experiments, *results);
   if (request.program.json) {
     fmt::print("{}\n", json(report).dump(2));
   } else {
-    fmt::print("written to {}; open report.html there\n", folder.string());
+    fmt::print("written to {}; open report.html there\n", request.out);
   }
+  if (const std::size_t failed = failures_in(*results); failed > 0)
+    throw Error(fmt::format("{} of {} runs failed; failures.csv in {} says why, the same command tries them again",
+                            failed, runs.size(), request.out));
 }
 
 }  // namespace
@@ -65,8 +110,12 @@ void add_experiment(CLI::App& program) {
   auto request = std::make_shared<Request>();
   CLI::App* command = program.add_subcommand(
       "experiment", "Repeat the paper's tables and figures, with the paper's values beside ours");
-  command->add_option("name", request->name, "table1, table2, table4, figure9, figure10, figure11 or all")->required();
-  command->add_option("--out", request->out, "folder for CSV, JSON and report.html")->capture_default_str();
+  std::string names;
+  for (const std::string& name : experiment_names()) names += name + ", ";
+  command->add_option("name", request->name, names + "or all")->required();
+  command
+      ->add_option("--out", request->out, "folder for runs, CSV, JSON and report.html; a sweep that was ended goes on")
+      ->capture_default_str();
   add_options(*command, request->options);
   add_program_options(*command, request->program);
   command->callback([request] { experiment(*request); });

@@ -14,12 +14,14 @@ std::optional<PaperObject> find(const PublishedObject& published, const std::opt
     require(std::filesystem::is_directory(*folder), "objects = ", folder->string(), ": must be a folder of meshes");
     const std::string file = concat(published.name, ".ply");
     if (std::filesystem::exists(*folder / file)) {
-      return PaperObject{published, read_mesh(*folder / file), published.size, file};
+      return PaperObject{
+          published, std::make_shared<SweepObject>(published.name, read_mesh(*folder / file), published.size, file)};
     }
   }
   const std::vector<std::string> names = object_names();
   if (std::find(names.begin(), names.end(), published.name) == names.end()) return std::nullopt;
-  return PaperObject{published, make_object(published.name), default_size(published.name), "built in"};
+  return PaperObject{published, std::make_shared<SweepObject>(published.name, make_object(published.name),
+                                                              default_size(published.name), "built in")};
 }
 
 }  // namespace

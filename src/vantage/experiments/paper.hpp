@@ -2,11 +2,13 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "vantage/core/triangle_mesh.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/experiments/sweep_object.hpp"
 
 namespace vantage {
 
@@ -34,9 +36,10 @@ inline constexpr std::array<PublishedObject, 7> published_objects{{
 /// An object of the paper as it can be had here.
 struct PaperObject {
   PublishedObject published;
-  TriangleMesh mesh;
-  double size = 0;     // metres
-  std::string source;  // file name, or "built in"
+  std::shared_ptr<const SweepObject> object;
+
+  /// Name and source, for people.
+  [[nodiscard]] std::string title() const { return concat(object->name(), " (", object->source(), ")"); }
 };
 
 /// The paper's objects: `NAME.ply` of the folder where there is one, else the built-in object of that name; those that

@@ -21,52 +21,28 @@ const std::array<Method, 3> methods{
     {{"no error", false, false}, {"error", true, false}, {"error, convolved", true, true}}};
 
 /// Section 9 of the paper.
-ReconstructOptions free_flyer() {
+ReconstructOptions free_flyer(const Method& method) {
   ReconstructOptions options;
   options.camera = "92.5x72.32:320x240";
   options.candidates = "cube:17:4.1:0.82:1.9";
   options.navigation = false;
   options.max_views = 30;
+  if (method.errs) options.positioning_error = Vec3::Constant(sigma);
+  if (method.convolves) options.convolve = "on";
   return options;
-}
-
-/// Runs of one method; run i of every method starts at the same view with the same errors.
-std::vector<RunOutcome> run_method(const SimulatedObject& object, const Method& method,
-                                   const ExperimentOptions& options, const RunProgress& progress) {
-  const ReconstructOptions base = free_flyer();
-  const VoxelMap map(base.scene_options());
-  const Candidates candidates = base.candidate_views();
-  std::vector<ExperimentRun> runs;
-  for (int seed = 1; seed <= options.seeds; ++seed) {
-    ExperimentRun run{&object, base};
-    run.options.seed = static_cast<std::uint64_t>(seed);
-    Random random(run.options.seed, 99);
-    do {
-      run.options.initial_view = random.index(static_cast<int>(candidates.views.size()));
-    } while (why_infeasible(map, candidates.views[static_cast<std::size_t>(run.options.initial_view)], {}));
-    if (method.errs) run.options.positioning_error = Vec3::Constant(sigma);
-    if (method.convolves) run.options.convolve = "on";
-    runs.push_back(run);
-  }
-  return run_all(runs, progress);
 }
 
 double mean_over_compared_scans(const RunOutcome& outcome) {
   double sum = 0;
-  for (std::size_t scan = first_compared; scan <= last_compared; ++scan) sum += 100 * coverage_after(outcome, scan);
+  for (std::size_t scan = first_compared; scan <= last_compared; ++scan)
+    sum += 100 * after_scan(outcome, "coverage", scan);
   return sum / (last_compared - first_compared + 1);
 }
 
 double views_to(double coverage, const RunOutcome& outcome) {
-  const auto& curve = outcome.coverage_by_scan;
+  const std::vector<double>& curve = outcome.list("coverage");
   const auto reached = std::find_if(curve.begin(), curve.end(), [coverage](double c) { return c >= coverage; });
   return static_cast<double>(reached - curve.begin()) + 1;
-}
-
-std::vector<double> each(const std::vector<RunOutcome>& outcomes, const auto& measure) {
-  std::vector<double> result;
-  for (const RunOutcome& outcome : outcomes) result.push_back(measure(outcome));
-  return result;
 }
 
 LineSeries curve(const std::string& name, const std::vector<RunOutcome>& outcomes) {
@@ -74,7 +50,7 @@ LineSeries curve(const std::string& name, const std::vector<RunOutcome>& outcome
   series.name = name;
   for (std::size_t scan = 1; scan <= scans_shown; ++scan) {
     const Estimate covered =
-        estimate(each(outcomes, [scan](const RunOutcome& o) { return 100 * coverage_after(o, scan); }));
+        estimate(each(outcomes, [scan](const RunOutcome& o) { return 100 * after_scan(o, "coverage", scan); }));
     series.x.push_back(static_cast<double>(scan));
     series.y.push_back(covered.mean);
     series.low.push_back(covered.low);
@@ -83,15 +59,30 @@ LineSeries curve(const std::string& name, const std::vector<RunOutcome>& outcome
   return series;
 }
 
-}  // namespace
+ExperimentTable::Row gain_row(const std::string& object, const std::vector<std::vector<RunOutcome>>& runs) {
+  std::vector<std::vector<double>> means, views;
+  for (const std::vector<RunOutcome>& method : runs) {
+    means.push_back(each(method, mean_over_compared_scans));
+    views.push_back(each(method, [](const RunOutcome& o) { return views_to(0.99, o); }));
+  }
+  return {object,
+          {estimate(means[0]), estimate(means[1]), estimate(means[2]), paired_difference(means[1], means[2]),
+           estimate(views[0]), estimate(views[1]), estimate(views[2]), paired_difference(views[2], views[1])}};
+}
 
-std::vector<ExperimentReport::Part> positioning_error_figure(const std::string& name,
-                                                             const std::vector<std::string>& objects,
-                                                             const ExperimentOptions& options,
-                                                             const RunProgress& progress) {
+LineChart coverage_chart(const std::string& title, const std::vector<std::vector<RunOutcome>>& runs) {
+  LineChart chart;
+  chart.title = title;
+  chart.x.label = "scan";
+  chart.x.ticks = PlotAxis::Ticks::whole;
+  chart.y.label = "coverage [%]";
+  for (std::size_t k = 0; k < methods.size(); ++k) chart.series.push_back(curve(methods[k].name, runs[k]));
+  return chart;
+}
+
+Experiment positioning_error_figure(const std::string& name, const std::vector<std::string>& object_names,
+                                    const ExperimentOptions& options) {
   using Kind = ExperimentTable::Column::Kind;
-  const std::optional<std::filesystem::path> folder =
-      options.objects ? std::optional<std::filesystem::path>(*options.objects) : std::nullopt;
   ExperimentFigure figure;
   figure.name = name;
   figure.title = fmt::format("Figure {}: reconstruction with positioning error", name.substr(6));
@@ -110,28 +101,39 @@ std::vector<ExperimentReport::Part> positioning_error_figure(const std::string& 
                    {"gain [points]", 2, Kind::difference},
                    {"views to 99 %, no error", 1},
                    {"error", 1},
-                   {"convolved", 1}};
-  for (const std::string& object_name : objects) {
-    const PaperObject object = paper_object(object_name, folder);
-    const SimulatedObject simulated(object.mesh, object.size, free_flyer());
-    LineChart chart;
-    chart.title = fmt::format("{} ({})", object_name, object.source);
-    chart.x.label = "scan";
-    chart.y.label = "coverage [%]";
-    std::vector<std::vector<double>> means, views;
+                   {"convolved", 1},
+                   {"views saved", 1, Kind::difference}};
+  Experiment experiment(name);
+  std::vector<std::pair<PaperObject, std::vector<RunGroup>>> objects;
+  for (const std::string& object_name : object_names) {
+    const PaperObject object = paper_object(object_name, options.folder());
+    std::vector<RunGroup> groups;
     for (const Method& method : methods) {
-      const std::vector<RunOutcome> outcomes = run_method(simulated, method, options, progress);
-      chart.series.push_back(curve(method.name, outcomes));
-      means.push_back(each(outcomes, mean_over_compared_scans));
-      views.push_back(each(outcomes, [](const RunOutcome& o) { return views_to(0.99, o); }));
+      groups.push_back(experiment.add(runs_with_seeds(fmt::format("{}, {}", object_name, method.name), object.object,
+                                                      free_flyer(method), options.seeds)));
     }
-    figure.plots.emplace_back(chart);
-    table.rows.push_back(
-        {object_name,
-         {estimate(means[0]), estimate(means[1]), estimate(means[2]), paired_difference(means[1], means[2]),
-          estimate(views[0]), estimate(views[1]), estimate(views[2])}});
+    objects.emplace_back(object, groups);
   }
-  return {figure, table};
+  experiment.report = [=](const Outcomes& outcomes) -> std::vector<ExperimentReport::Part> {
+    ExperimentFigure drawn = figure;
+    ExperimentTable filled = table;
+    for (const auto& [object, groups] : objects) {
+      const auto runs = outcomes.paired(groups, 2);
+      drawn.plots.emplace_back(coverage_chart(object.title(), runs));
+      filled.rows.push_back(gain_row(object.object->name(), runs));
+    }
+    return {drawn, filled};
+  };
+  return experiment;
+}
+
+}  // namespace
+
+Experiment simple_objects_figure(const ExperimentOptions& options) {
+  return positioning_error_figure("figure10", {"sphere", "mug"}, options);
+}
+Experiment logo_figure(const ExperimentOptions& options) {
+  return positioning_error_figure("figure11", {"sgi_logo"}, options);
 }
 
 }  // namespace vantage

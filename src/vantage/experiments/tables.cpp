@@ -7,20 +7,6 @@
 namespace vantage {
 namespace {
 
-constexpr int sphere_views = 80;
-
-/// The same reconstruction from `starts` initial views spread over the candidates.
-std::vector<RunOutcome> run_from_starts(const SimulatedObject& object, const ReconstructOptions& options, int starts,
-                                        const RunProgress& progress) {
-  std::vector<ExperimentRun> runs;
-  for (int i = 0; i < starts; ++i) {
-    ExperimentRun run{&object, options};
-    run.options.initial_view = i * sphere_views / starts;
-    runs.push_back(run);
-  }
-  return run_all(runs, progress);
-}
-
 Estimate with_paper(Estimate ours, double published, double low, double high) {
   ours.published = published;
   ours.band_low = low;
@@ -28,47 +14,86 @@ Estimate with_paper(Estimate ours, double published, double low, double high) {
   return ours;
 }
 
-std::optional<std::filesystem::path> folder_of(const ExperimentOptions& options) {
-  if (!options.objects) return std::nullopt;
-  return std::filesystem::path(*options.objects);
+ExperimentTable::Row search_row(const PaperObject& object, const std::vector<RunOutcome>& outcomes, bool exhaustive) {
+  const PublishedObject& paper = object.published;
+  const double quality = exhaustive ? paper.quality_exhaustive : paper.quality_multi_resolution;
+  const double distance = exhaustive ? paper.distance_exhaustive : paper.distance_multi_resolution;
+  Estimate covered = estimate(each(outcomes, [](const RunOutcome& o) { return 100 * o.number("coverage"); }));
+  covered.band_low = 99.2;
+  return {object.title(),
+          {with_paper(estimate(numbers(outcomes, "views")), paper.views, paper.views - 3, paper.views + 2),
+           with_paper(estimate(numbers(outcomes, "occupied")), paper.occupied, 0.95 * paper.occupied,
+                      1.05 * paper.occupied),
+           with_paper(estimate(numbers(outcomes, "quality")), quality, quality - paper.quality_band,
+                      quality + paper.quality_band),
+           with_paper(estimate(numbers(outcomes, "distance")), distance, 0.75 * paper.distance_exhaustive,
+                      1.25 * paper.distance_exhaustive),
+           covered}};
 }
 
-}  // namespace
-
-ExperimentTable search_table(const std::string& search, const ExperimentOptions& options, const RunProgress& progress) {
+Experiment search_table(const std::string& search, const ExperimentOptions& options) {
   const bool exhaustive = search == "exhaustive";
   ExperimentTable table;
   table.name = exhaustive ? "table1" : "table2";
   table.title = fmt::format("Table {}: reconstruction with the {} search", exhaustive ? 1 : 2, search);
   table.note = fmt::format("Means over {} initial views.", options.starts);
   table.columns = {{"views", 1}, {"occupied", 0}, {"quality", 3}, {"distance [m]", 2}, {"coverage [%]", 2}};
-  for (const PaperObject& object : paper_objects(folder_of(options))) {
-    ReconstructOptions run;
-    run.search = search;
-    const SimulatedObject simulated(object.mesh, object.size, run);
-    const std::vector<RunOutcome> outcomes = run_from_starts(simulated, run, options.starts, progress);
-    const PublishedObject& paper = object.published;
-    const double quality = exhaustive ? paper.quality_exhaustive : paper.quality_multi_resolution;
-    const double distance = exhaustive ? paper.distance_exhaustive : paper.distance_multi_resolution;
-    std::vector<double> coverage = values(outcomes, &RunOutcome::coverage);
-    for (double& share : coverage) share *= 100;
-    Estimate covered = estimate(coverage);
-    covered.band_low = 99.2;
-    table.rows.push_back(
-        {fmt::format("{} ({})", paper.name, object.source),
-         {with_paper(estimate(values(outcomes, &RunOutcome::views)), paper.views, paper.views - 3, paper.views + 2),
-          with_paper(estimate(values(outcomes, &RunOutcome::occupied)), paper.occupied, 0.95 * paper.occupied,
-                     1.05 * paper.occupied),
-          with_paper(estimate(values(outcomes, &RunOutcome::quality)), quality, quality - paper.quality_band,
-                     quality + paper.quality_band),
-          with_paper(estimate(values(outcomes, &RunOutcome::distance)), distance, 0.75 * paper.distance_exhaustive,
-                     1.25 * paper.distance_exhaustive),
-          covered}});
+  ReconstructOptions run;
+  run.search = search;
+  Experiment experiment(table.name);
+  std::vector<std::pair<PaperObject, RunGroup>> groups;
+  for (const PaperObject& object : paper_objects(options.folder())) {
+    const std::string name = fmt::format("{}, {}", object.object->name(), search);
+    groups.emplace_back(object, experiment.add(runs_from_starts(name, object.object, run, options.starts)));
   }
+  experiment.report = [=](const Outcomes& outcomes) -> std::vector<ExperimentReport::Part> {
+    ExperimentTable filled = table;
+    for (const auto& [object, group] : groups)
+      filled.rows.push_back(search_row(object, outcomes.of(group), exhaustive));
+    return {filled};
+  };
+  return experiment;
+}
+
+/// The objects' distances with and without the navigation factor, and their sum.
+ExperimentTable navigation_rows(ExperimentTable table, const std::vector<PaperObject>& objects,
+                                const std::vector<std::vector<RunOutcome>>& runs) {
+  const std::size_t starts = runs.front().size();
+  std::vector<double> sum_with(starts), sum_without(starts);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::vector<RunOutcome>&with = runs[2 * i], &without = runs[2 * i + 1];
+    const std::vector<double> distance_with = numbers(with, "distance");
+    const std::vector<double> distance_without = numbers(without, "distance");
+    Estimate ours_with = estimate(distance_with), ours_without = estimate(distance_without);
+    ours_with.published = objects[i].published.distance_with_navigation;
+    ours_without.published = objects[i].published.distance_without_navigation;
+    for (std::size_t k = 0; k < starts; ++k) {
+      sum_with[k] += distance_with[k];
+      sum_without[k] += distance_without[k];
+    }
+    table.rows.push_back({objects[i].title(),
+                          {estimate(numbers(with, "views")), estimate(numbers(without, "views")), ours_with,
+                           ours_without, paired_difference(distance_with, distance_without), std::monostate()}});
+  }
+  std::vector<double> saved;
+  for (std::size_t k = 0; k < starts; ++k) saved.push_back(100 * (1 - sum_with[k] / sum_without[k]));
+  Estimate saved_share = estimate(saved);
+  saved_share.band_low = 2;
+  saved_share.band_high = 15;
+  table.rows.push_back({"sum of all",
+                        {std::monostate(), std::monostate(), estimate(sum_with), estimate(sum_without),
+                         paired_difference(sum_with, sum_without), saved_share}});
   return table;
 }
 
-ExperimentTable navigation_table(const ExperimentOptions& options, const RunProgress& progress) {
+}  // namespace
+
+Experiment exhaustive_table(const ExperimentOptions& options) { return search_table("exhaustive", options); }
+Experiment multi_resolution_table(const ExperimentOptions& options) {
+  return search_table("multi-resolution", options);
+}
+
+Experiment navigation_table(const ExperimentOptions& options) {
   using Kind = ExperimentTable::Column::Kind;
   ExperimentTable table;
   table.name = "table4";
@@ -81,75 +106,64 @@ ExperimentTable navigation_table(const ExperimentOptions& options, const RunProg
                    {"distance without [m]", 2},
                    {"saved [m]", 2, Kind::difference},
                    {"saved [%]", 1}};
-  std::vector<double> sum_with(static_cast<std::size_t>(options.starts));
-  std::vector<double> sum_without(sum_with);
-  for (const PaperObject& object : paper_objects(folder_of(options))) {
-    ReconstructOptions run;
-    run.search = "multi-resolution";
-    const SimulatedObject simulated(object.mesh, object.size, run);
-    const std::vector<RunOutcome> with = run_from_starts(simulated, run, options.starts, progress);
-    run.navigation = false;
-    const std::vector<RunOutcome> without = run_from_starts(simulated, run, options.starts, progress);
-    const std::vector<double> distance_with = values(with, &RunOutcome::distance);
-    const std::vector<double> distance_without = values(without, &RunOutcome::distance);
-    Estimate ours_with = estimate(distance_with);
-    ours_with.published = object.published.distance_with_navigation;
-    Estimate ours_without = estimate(distance_without);
-    ours_without.published = object.published.distance_without_navigation;
-    for (std::size_t i = 0; i < sum_with.size(); ++i) {
-      sum_with[i] += distance_with[i];
-      sum_without[i] += distance_without[i];
+  Experiment experiment(table.name);
+  const std::vector<PaperObject> objects = paper_objects(options.folder());
+  std::vector<RunGroup> groups;
+  for (const PaperObject& object : objects) {
+    for (const bool navigation : {true, false}) {
+      ReconstructOptions run;
+      run.search = "multi-resolution";
+      run.navigation = navigation;
+      const std::string name =
+          fmt::format("{}, multi-resolution{}", object.object->name(), navigation ? "" : ", no navigation");
+      groups.push_back(experiment.add(runs_from_starts(name, object.object, run, options.starts)));
     }
-    table.rows.push_back(
-        {fmt::format("{} ({})", object.published.name, object.source),
-         {estimate(values(with, &RunOutcome::views)), estimate(values(without, &RunOutcome::views)), ours_with,
-          ours_without, paired_difference(distance_with, distance_without), std::monostate()}});
   }
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < sum_with.size(); ++i) saved.push_back(100 * (1 - sum_with[i] / sum_without[i]));
-  Estimate saved_share = estimate(saved);
-  saved_share.band_low = 2;
-  saved_share.band_high = 15;
-  table.rows.push_back({"sum of all",
-                        {std::monostate(), std::monostate(), estimate(sum_with), estimate(sum_without),
-                         paired_difference(sum_with, sum_without), saved_share}});
-  return table;
+  experiment.report = [=](const Outcomes& outcomes) -> std::vector<ExperimentReport::Part> {
+    return {navigation_rows(table, objects, outcomes.paired(groups, 2))};
+  };
+  return experiment;
 }
 
-ExperimentFigure gua_figure(const ExperimentOptions& options, const RunProgress& progress) {
+Experiment gua_figure(const ExperimentOptions& options) {
   constexpr int paper_starts = 20;
-  const PaperObject mug = paper_object("mug", folder_of(options));
-  ReconstructOptions run;
-  const SimulatedObject simulated(mug.mesh, mug.size, run);
+  const PaperObject mug = paper_object("mug", options.folder());
   const int starts = std::max(options.starts, paper_starts);
-  const std::vector<RunOutcome> combined = run_from_starts(simulated, run, starts, progress);
+  Experiment experiment("figure9");
+  ReconstructOptions run;
+  const RunGroup combined = experiment.add(runs_from_starts("mug, exhaustive", mug.object, run, starts));
   run.utility = "gua";
-  const std::vector<RunOutcome> gua = run_from_starts(simulated, run, starts, progress);
-
-  BarChart chart;
-  chart.title = "combination of factors / greatest unknown area";
-  chart.categories = {"views", "occupied", "quality", "distance"};
-  chart.y.label = "ratio";
-  BarSeries series;
-  series.name = "ours";
-  for (const auto member : {&RunOutcome::views, &RunOutcome::occupied, &RunOutcome::quality, &RunOutcome::distance}) {
-    const double mean_gua = estimate(values(gua, member)).mean;
-    const Estimate difference = paired_difference(values(gua, member), values(combined, member));
-    series.value.push_back(1 + difference.mean / mean_gua);
-    series.low.push_back(1 + difference.low / mean_gua);
-    series.high.push_back(1 + difference.high / mean_gua);
-  }
-  chart.series = {series};
-  ExperimentFigure figure;
-  figure.name = "figure9";
-  figure.title = "Figure 9: comparison with the greatest unknown area";
-  figure.note = fmt::format(
-      "The mug ({}) from {} initial views: views {:.3f}, occupied {:.3f}, quality {:.3f}, distance {:.3f} of what the "
-      "greatest unknown area takes. Whiskers: 95 % intervals of the paired difference. The paper tells of 6 % more "
-      "views, as many occupied voxels, better quality and less distance.",
-      mug.source, starts, series.value[0], series.value[1], series.value[2], series.value[3]);
-  figure.plots = {chart};
-  return figure;
+  const RunGroup gua = experiment.add(runs_from_starts("mug, greatest unknown area", mug.object, run, starts));
+  experiment.report = [=](const Outcomes& outcomes) -> std::vector<ExperimentReport::Part> {
+    const auto paired = outcomes.paired({combined, gua}, 2);
+    BarChart chart;
+    chart.title = "combination of factors / greatest unknown area";
+    chart.categories = {"views", "occupied", "quality", "distance"};
+    chart.y.label = "ratio";
+    BarSeries series;
+    series.name = "ours";
+    for (const std::string& measure : chart.categories) {
+      const std::vector<double> ours = numbers(paired[0], measure), theirs = numbers(paired[1], measure);
+      const double mean_gua = estimate(theirs).mean;
+      const Estimate difference = paired_difference(theirs, ours);
+      series.value.push_back(1 + difference.mean / mean_gua);
+      series.low.push_back(1 + difference.low / mean_gua);
+      series.high.push_back(1 + difference.high / mean_gua);
+    }
+    chart.series = {series};
+    ExperimentFigure figure;
+    figure.name = "figure9";
+    figure.title = "Figure 9: comparison with the greatest unknown area";
+    figure.note = fmt::format(
+        "The mug ({}) from {} initial views: views {:.3f}, occupied {:.3f}, quality {:.3f}, distance {:.3f} of what "
+        "the "
+        "greatest unknown area takes. Whiskers: 95 % intervals of the paired difference. The paper tells of 6 % more "
+        "views, as many occupied voxels, better quality and less distance.",
+        mug.object->source(), paired[0].size(), series.value[0], series.value[1], series.value[2], series.value[3]);
+    figure.plots = {chart};
+    return {figure};
+  };
+  return experiment;
 }
 
 }  // namespace vantage

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "vantage/core/error.hpp"
+#include "vantage/experiments/run_outcome.hpp"
+#include "vantage/experiments/sweep_object.hpp"
+
+namespace vantage {
+
+/// Asked now and then by a run; true means that nobody waits for its outcome any more.
+using Interrupted = std::function<bool()>;
+
+/// Thrown by a run that was interrupted: nothing is stored of it.
+class RunInterrupted : public Error {
+ public:
+  RunInterrupted() : Error("interrupted") {}
+};
+
+/// One independent piece of work of a sweep. Runs with the same configuration have the same outcome, so they are done
+/// once and shared, within an experiment, between experiments and with earlier starts of the program.
+struct SweepRun {
+  std::string name;           // for people and file names: "mug, exhaustive, start 8"
+  std::string configuration;  // JSON text of all that decides the outcome
+  std::function<RunOutcome(const Interrupted&)> work;
+};
+
+/// More that is to be measured of every reconstruction, beyond what reconstruction_run() does by itself.
+struct ExtraMeasures {
+  std::string name;  // enters the configuration: change it whenever `add` changes what it writes
+  std::function<void(const SimulatedRun&, const SimulatedObject&, RunOutcome&)> add;
+};
+
+/// A simulated reconstruction. Its outcome has the numbers `views`, `occupied`, `quality`, `distance`, `coverage`,
+/// `coverage_all`, `failed_scans`, the text `stop_reason`, per scan the lists `coverage`, `coverage_all`, `occupied`,
+/// `new_occupied`, `quality`, `distance` (up to the scan), `candidate`, `n_oc`, `n_op`, `n_um`, `utility` (as planned,
+/// NaN for the first), `overlap` (share of the scan's voxels that were occupied before), `registration_overlap`,
+/// `merged` (1 or 0), `residual`, `position_error` [m] and `orientation_error` [rad] (registered against true pose),
+/// and the times `plan`, `registration`, `integration` per scan.
+[[nodiscard]] SweepRun reconstruction_run(const std::string& name, std::shared_ptr<const SweepObject> object,
+                                          const ReconstructOptions& options, const ExtraMeasures& extra = {});
+
+}  // namespace vantage
