@@ -10,6 +10,7 @@
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/io/map_file.hpp"
+#include "vantage/io/ranked_views.hpp"
 #include "vantage/reconstruction/options.hpp"
 
 namespace vantage::app {

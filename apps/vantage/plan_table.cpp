@@ -6,27 +6,6 @@
 
 namespace vantage::app {
 
-nlohmann::ordered_json view_json(const Evaluation& e) {
-  const Vec3 position = e.view.position();
-  return {{"index", e.candidate},
-          {"position", {position.x(), position.y(), position.z()}},
-          {"feasible", e.feasible},
-          {"reason", e.reason},
-          {"columns", e.resolution.columns},
-          {"rows", e.resolution.rows},
-          {"n_oc", e.seen.occupied},
-          {"n_op", e.seen.occplane},
-          {"n_um", e.seen.unmarked},
-          {"n_occluded", e.seen.occluded},
-          {"x_oc", e.factors.x_oc},
-          {"x_op", e.factors.x_op},
-          {"f_area", e.factors.f_area},
-          {"f_navigation", e.factors.f_navigation},
-          {"f_quality", e.factors.f_quality},
-          {"f_occlusion", e.factors.f_occlusion},
-          {"utility", e.utility}};
-}
-
 void print_views(std::vector<Evaluation> evaluations, int top) {
   rank(evaluations);
   fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>8}\n", "view", "position [m]", "n_oc", "n_op",
@@ -46,6 +25,16 @@ void print_views(std::vector<Evaluation> evaluations, int top) {
   }
 }
 
+void print_record(std::FILE* out, const ScanRecord& record) {
+  fmt::print(
+      out,
+      "{:<24} {:<20} overlap {:>5.1f} %  residual {:>6.2f} mm  moved {:>5.1f} mm {:>4.1f} deg  {:>5} new voxels{}\n",
+      record.reason, record.verdict, 100 * record.overlap, 1000 * record.residual,
+      1000 * (record.registered.position() - record.believed.position()).norm(),
+      degrees(rotation_angle(record.registered.world_from_sensor.linear(), record.believed.world_from_sensor.linear())),
+      record.new_occupied, record.merged ? "" : "  NOT MERGED");
+}
+
 void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, int top) {
   if (!plan) {
     fmt::print("nothing left to plan: {}\n", why_finished);
@@ -58,34 +47,6 @@ void print_plan(const std::optional<Plan>& plan, const std::string& why_finished
   std::vector<Evaluation> all = plan->ranking;
   all.insert(all.end(), plan->infeasible.begin(), plan->infeasible.end());
   print_views(all, top);
-}
-
-nlohmann::ordered_json plan_json(const std::optional<Plan>& plan, const std::string& why_finished,
-                                 const ObjectModel& model, int top) {
-  const auto with_pose = [](const Evaluation& evaluation) {
-    nlohmann::ordered_json json = view_json(evaluation);
-    json["pose"] = pose_numbers(evaluation.view.world_from_sensor);
-    return json;
-  };
-  nlohmann::ordered_json json;
-  json["next"] = plan ? with_pose(plan->best) : nlohmann::ordered_json(nullptr);
-  json["explanation"] = plan ? plan->explanation : why_finished;
-  // A deadline, like multi-resolution, evaluates fewer to the end than could be chosen.
-  json["evaluated"] = plan ? plan->ranking.size() : 0;
-  json["feasible"] = plan ? plan->feasible : 0;
-  json["ranking"] = nlohmann::ordered_json::array();
-  json["infeasible"] = nlohmann::ordered_json::array();
-  if (plan) {
-    for (std::size_t i = 0; i < std::min(plan->ranking.size(), static_cast<std::size_t>(top)); ++i) {
-      json["ranking"].push_back(with_pose(plan->ranking[i]));
-    }
-    for (const Evaluation& each : plan->infeasible) {
-      json["infeasible"].push_back({{"index", each.candidate}, {"reason", each.reason}});
-    }
-  }
-  json["scans"] = nlohmann::ordered_json::array();
-  for (const ScanRecord& record : model.scans) json["scans"].push_back(scan_json(record));
-  return json;
 }
 
 }  // namespace vantage::app

@@ -1,5 +1,6 @@
 #include "vantage/reconstruction/from_scans.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
@@ -18,13 +19,6 @@ Box3 box_around(const std::vector<PendingScan>& scans) {
   require(!box.isEmpty(), "scans: none of the ", scans.size(), " scans has a single measured point");
   const Vec3 grown = margin * box.sizes();
   return {box.min() - grown, box.max() + grown};
-}
-
-Box3 wanted_box(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
-  if (!options.box) return box_around(scans);
-  const Vec3 center = options.box->head<3>();
-  const Vec3 half = 0.5 * options.box->tail<3>();
-  return {center - half, center + half};
 }
 
 }  // namespace
@@ -52,10 +46,14 @@ Vec3 sensor_position(const Scan& scan, const View& view) {
   return view.world_from_sensor * Vec3(sum / static_cast<double>(lines->origins.size()));
 }
 
-ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
-  options.validate();
-  require(!scans.empty(), "scans: there are none");
-  const Box3 box = wanted_box(scans, options);
+std::optional<Box3> given_box(const ScanPlanOptions& options) {
+  if (!options.box) return std::nullopt;
+  const Vec3 center = options.box->head<3>();
+  const Vec3 half = 0.5 * options.box->tail<3>();
+  return Box3(center - half, center + half);
+}
+
+ScanScene scene_in(const Box3& box, const ScanPlanOptions& options) {
   ScanScene fitted;
   fitted.scene.center = box.center();
   fitted.scene.voxel_length = options.voxel.value_or(box.sizes().maxCoeff() / default_voxels_along_box);
@@ -68,20 +66,34 @@ ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions
 
   const Vec3 around = Vec3::Constant(options.surroundings * box.sizes().maxCoeff());
   fitted.region = Box3(box.min() - around, box.max() + around);
+  if (options.radius) fitted.radius = *options.radius;
+  return fitted;
+}
 
+std::size_t points_in(const Box3& box, const Scan& scan, const View& believed) {
+  const std::vector<Vec3> points = points_of(scan).points;
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3& point) {
+    return box.contains(believed.world_from_sensor * point);
+  }));
+}
+
+ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
+  options.validate();
+  require(!scans.empty(), "scans: there are none");
+  const std::optional<Box3> given = given_box(options);
+  const Box3 box = given ? *given : box_around(scans);
+  ScanScene fitted = scene_in(box, options);
   double distance = 0;
   std::size_t hits = 0;
   for (const PendingScan& pending : scans) {
     const Scan scan = pending.read();
     distance += (sensor_position(scan, pending.believed) - box.center()).norm();
-    for (const Vec3& point : points_of(scan).points) {
-      hits += box.contains(pending.believed.world_from_sensor * point) ? 1 : 0;
-    }
+    hits += points_in(box, scan, pending.believed);
   }
   require(hits > 0, "box: none of the ", scans.size(), " scans has a point in the box around (",
           box.center().transpose(), ") of size (", box.sizes().transpose(),
           ") m; `vantage doctor` tells whether poses, units or the box are wrong");
-  fitted.radius = options.radius.value_or(distance / static_cast<double>(scans.size()));
+  if (!options.radius) fitted.radius = distance / static_cast<double>(scans.size());
   return fitted;
 }
 

@@ -54,6 +54,13 @@ struct ScanScene {
 /// Where the sensor stood: the middle of its sight lines' origins.
 [[nodiscard]] Vec3 sensor_position(const Scan& scan, const View& view);
 
+/// The scene in a box, with the voxels and surroundings of the options; its radius is theirs too, where they give one.
+[[nodiscard]] ScanScene scene_in(const Box3& box, const ScanPlanOptions& options);
+/// The box of the options, if they give one.
+[[nodiscard]] std::optional<Box3> given_box(const ScanPlanOptions& options);
+/// Number of the scan's points in the box, by the believed pose.
+[[nodiscard]] std::size_t points_in(const Box3& box, const Scan& scan, const View& believed);
+
 /// Fits the scene to the options and, where they leave something open, to the scans. Throws InputError where no scan
 /// has a point in the box.
 [[nodiscard]] ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options);

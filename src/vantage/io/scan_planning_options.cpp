@@ -1,0 +1,34 @@
+#include "vantage/io/scan_planning_options.hpp"
+
+namespace vantage {
+
+void ScanPlanningOptions::validate() const {
+  scene.validate();
+  reading.validate();
+  (void)camera(std::nullopt);
+  planning.planner_options().validate();
+}
+
+RangeCamera ScanPlanningOptions::camera(const std::optional<RangeCamera>& of_scans) const {
+  RangeCamera camera = of_scans.value_or(planning.range_camera());
+  camera.min_depth = reading.depth_range[0];
+  camera.max_depth = reading.depth_range[1];
+  camera.validate();
+  return camera;
+}
+
+Planner ScanPlanningOptions::planner(const Candidates& candidates, const std::optional<RangeCamera>& of_scans) const {
+  return Planner(candidates, camera(of_scans), planning.planner_options());
+}
+
+std::vector<OptionField> option_fields(ScanPlanningOptions& options) {
+  std::vector<OptionField> fields = option_fields(options.scene);
+  for (OptionField& field : option_fields(options.reading)) fields.push_back(std::move(field));
+  for (OptionField& field : fields_named(option_fields(options.planning), planning_option_names())) {
+    // The depth range is that of the scans, and the candidates are a sphere around the box.
+    if (field.name != "depth-range" && field.name != "candidates") fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+}  // namespace vantage
