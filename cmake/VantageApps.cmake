@@ -23,11 +23,23 @@ target_link_libraries(vantage_full
 include(VantageViewer)
 target_sources(vantage_full PRIVATE ${vantage_viewer_source})
 
+# The web server. Debian's cpp-httplib has no CMake file; its pkg-config file says with which definitions it was compiled,
+# and the sizes of its classes depend on them.
+find_path(VANTAGE_HTTPLIB_INCLUDE httplib.h REQUIRED)
+add_library(vantage_httplib INTERFACE)
+target_compile_definitions(vantage_httplib INTERFACE
+  CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT CPPHTTPLIB_BROTLI_SUPPORT)
+target_include_directories(vantage_httplib SYSTEM INTERFACE ${VANTAGE_HTTPLIB_INCLUDE})
+target_link_libraries(vantage_httplib INTERFACE cpp-httplib)
+vantage_library(server server)
+target_link_libraries(vantage_server PUBLIC vantage_full
+  PRIVATE fmt::fmt $<BUILD_INTERFACE:vantage_httplib> $<INSTALL_INTERFACE:cpp-httplib>)
+
 find_package(CLI11 REQUIRED)
 file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)
 list(FILTER vantage_app_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(vantage ${vantage_app_sources})
-target_link_libraries(vantage PRIVATE vantage_full vantage_build_settings fmt::fmt CLI11::CLI11)
+target_link_libraries(vantage PRIVATE vantage_full vantage_server vantage_build_settings fmt::fmt CLI11::CLI11)
 target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
 set_target_properties(vantage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 

@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
   vantage::app::add_export(program);
   vantage::app::add_objects(program);
   vantage::app::add_view(program);
+  vantage::app::add_serve(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help and --version

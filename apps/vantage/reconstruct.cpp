@@ -8,9 +8,11 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "object_source.hpp"
+#include "page_server.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/io/run_folder.hpp"
+#include "vantage/io/run_log.hpp"
 #include "vantage/reconstruction/simulate.hpp"
 
 namespace vantage::app {
@@ -24,6 +26,8 @@ struct Request {
   std::string object;
   std::string out;
   bool report = true;
+  std::string serve;  // the port; empty: not served
+  PageServerOptions server;
   ReconstructOptions options;
   ProgramOptions program;
 };
@@ -50,6 +54,7 @@ RunDescription describe_run(const Request& request, const std::string& object_na
   description.candidates = request.options.candidate_views();
   description.candidates_text = request.options.candidates;
   description.truth = object.scanner().mesh();
+  description.seed = request.options.seed;
   return description;
 }
 
@@ -69,6 +74,49 @@ RunSummary summarise(const Request& request, const std::string& object_name, con
   return summary;
 }
 
+/// Who else follows the run: the log beside the results, and browsers.
+struct Audience {
+  std::optional<RunLog> log;
+  LiveRun live;
+  std::unique_ptr<HttpServer> server;  // after what it shows
+
+  Audience(const Request& request, const std::filesystem::path& folder) {
+    if (!request.serve.empty()) {
+      PageServerOptions options = request.server;
+      options.port = port_from_text(request.serve, "--serve");
+      server = page_server(options, live);
+      start_and_tell(*server);
+    }
+    if (request.report) log.emplace(folder);
+  }
+
+  void tell(std::string_view event, const nlohmann::ordered_json& data) {
+    if (log) log->add(event, data);
+    if (!server) return;
+    if (event == "run")
+      live.begin(data);
+    else
+      live.add(event, data);
+  }
+};
+
+void print_result(const Request& request, const RunFolder& folder, const RunSummary& summary, const ObjectModel& model,
+                  double seconds) {
+  if (request.program.json) {
+    fmt::print("{}\n", summary_json(model, summary).dump(2));
+    return;
+  }
+  const ScanRecord& last = model.scans.back();
+  fmt::print(
+      "{}: {} scans, {:.2f} % of the visible surface, {} occupied voxels, quality {:.3f}, {:.2f} m travelled, {:.2f} "
+      "s\n",
+      summary.object, model.scans.size(), 100 * last.coverage.value_or(0), last.labels.occupied, last.mean_quality,
+      last.distance, seconds);
+  fmt::print("{}: {}\n", summary.stop_reason == "interrupted" ? "kept what was scanned" : "finished",
+             summary.stop_reason);
+  fmt::print("written to {}{}\n", folder.path().string(), request.report ? "; open report.html there" : "");
+}
+
 void reconstruct(const Request& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
@@ -80,7 +128,11 @@ void reconstruct(const Request& request) {
       describe_run(request, source.name, object));
 
   catch_interrupts();
+  Audience audience(request, folder.path());
+  if (audience.log || audience.server)
+    folder.on_event = [&](std::string_view event, const nlohmann::ordered_json& data) { audience.tell(event, data); };
   RunObserver observer;
+  observer.on_plan = [&](const Plan& plan) { folder.add_plan(plan); };
   observer.interrupted = was_interrupted;
   observer.on_scan = [&](const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
     folder.add_scan(record, scan, model, plan);
@@ -91,18 +143,10 @@ void reconstruct(const Request& request) {
   const RunSummary summary = summarise(request, source.name, object, run);
   folder.finish(run.model, summary, std::nullopt, seconds_since(start),
                 request.report ? RunPictures::mesh_and_report : RunPictures::none);
-  if (request.program.json) {
-    fmt::print("{}\n", summary_json(run.model, summary).dump(2));
-    return;
-  }
-  const ScanRecord& last = run.model.scans.back();
-  fmt::print(
-      "{}: {} scans, {:.2f} % of the visible surface, {} occupied voxels, quality {:.3f}, {:.2f} m travelled, {:.2f} "
-      "s\n",
-      source.name, run.model.scans.size(), 100 * last.coverage.value_or(0), last.labels.occupied, last.mean_quality,
-      last.distance, seconds_since(start));
-  fmt::print("{}: {}\n", run.stop_reason == "interrupted" ? "kept what was scanned" : "finished", run.stop_reason);
-  fmt::print("written to {}{}\n", folder.path().string(), request.report ? "; open report.html there" : "");
+  if (audience.log) audience.log->remove();
+  print_result(request, folder, summary, run.model, seconds_since(start));
+  std::fflush(stdout);
+  if (audience.server) wait_for_interrupt();
 }
 
 }  // namespace
@@ -115,6 +159,10 @@ void add_reconstruct(CLI::App& program) {
       ->required();
   command->add_option("--out", request->out, "output folder; runs/OBJECT by default");
   command->add_flag("--report,!--no-report", request->report, "write mesh.ply and report.html");
+  // A flag, so that a word after it is not taken for the port.
+  command->add_flag("--serve{8350}", request->serve,
+                    "show the run in the browser while it goes on, until Ctrl-C; --serve=PORT, 0: any free one");
+  add_page_server_options(*command, request->server);
   add_options(*command, request->options);
   add_program_options(*command, request->program);
   command->callback([request] { reconstruct(*request); });

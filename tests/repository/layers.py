@@ -24,6 +24,7 @@ FOLDERS = {
     "reconstruction": (7, ["planning", "registration", "simulation"]),
     "io": (8, ["reconstruction"]),
     "experiments": (9, ["io"]),
+    "server": (9, ["io"]),
 }
 
 # The library vantage::core: Eigen, oneTBB and the standard library, nothing else.

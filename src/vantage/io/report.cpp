@@ -167,6 +167,15 @@ Json scan_json(const RecordedScan& scan) {
   return json;
 }
 
+Json result_json(const RunData& run) {
+  return {{"cloud", cloud_json(run.cloud, run.scan_of_point, max_cloud_points)},
+          {"mesh", mesh_json(run.mesh, max_triangles)}};
+}
+
+Json state_json(const RunData& run) {
+  return {{"state", state_name(run.state)}, {"stop_reason", run.stop_reason}, {"summary", summary_json(run)}};
+}
+
 Json run_json(const RunData& run) {
   Json scans = Json::array();
   for (const RecordedScan& scan : run.scans) scans.push_back(scan_json(scan));
@@ -203,6 +212,22 @@ std::string fill_page(std::string_view page, const Json& document, std::string_v
   fill(static_place, static_html);
   fill(data_place, concat(data_place.substr(0, data_place.size() - end_tag.size()), escaped, end_tag));
   return result;
+}
+
+std::optional<Json> document_of_page(std::string_view page, const std::string& what) {
+  const std::string_view start = data_place.substr(0, data_place.find("</script>"));
+  const std::size_t at = page.find(start);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::size_t begin = at + start.size();
+  const std::size_t end = page.find("</script>", begin);
+  require(end != std::string_view::npos, what, ": the file is cut off within its data");
+  const std::string_view text = page.substr(begin, end - begin);
+  if (text.empty()) return std::nullopt;
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw InputError(concat(what, ": its data are no JSON: ", error.what()));
+  }
 }
 
 std::string report_html(const RunData& run) { return fill_page(viewer_page(), run_json(run), run.static_html); }

@@ -11,6 +11,9 @@ namespace vantage {
 /// Parts of RunData as docs/report-data.md defines them; the live server sends them as events.
 [[nodiscard]] nlohmann::ordered_json scan_json(const RecordedScan& scan);
 [[nodiscard]] nlohmann::ordered_json plan_json(const CandidatePlan& plan);
+/// Cloud and mesh of the run as it is, and how it stands.
+[[nodiscard]] nlohmann::ordered_json result_json(const RunData& run);
+[[nodiscard]] nlohmann::ordered_json state_json(const RunData& run);
 /// The whole document.
 [[nodiscard]] nlohmann::ordered_json run_json(const RunData& run);
 
@@ -21,6 +24,10 @@ namespace vantage {
 /// the page does not have exactly one of each place.
 [[nodiscard]] std::string fill_page(std::string_view page, const nlohmann::ordered_json& document,
                                     std::string_view static_html);
+
+/// The document in a page that fill_page made, nothing where it holds none. Throws InputError, which names `what`,
+/// where the page is cut off.
+[[nodiscard]] std::optional<nlohmann::ordered_json> document_of_page(std::string_view page, const std::string& what);
 
 /// report.html of a run: one file that opens from disk and asks for nothing else.
 [[nodiscard]] std::string report_html(const RunData& run);

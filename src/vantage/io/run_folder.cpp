@@ -11,6 +11,7 @@
 #include "vantage/io/mesh_file.hpp"
 #include "vantage/io/point_cloud_file.hpp"
 #include "vantage/io/pose_file.hpp"
+#include "vantage/io/report.hpp"
 #include "vantage/io/static_report.hpp"
 #include "vantage/io/surface_mesh.hpp"
 
@@ -74,11 +75,23 @@ RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
   data_.camera = description_.camera;
   data_.candidates = description_.candidates;
   data_.candidates_text = description_.candidates_text;
+  data_.seed = description_.seed;
+  data_.simulated = description_.truth.has_value();
+  if (description_.truth) data_.truth = *description_.truth;
+  data_.state = RunData::State::running;
 }
 
 void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
   if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path_ / "scans", record, image->image);
+  data_.grid = model.map.grid();
+  data_.enclosure = model.map.enclosure();
+  if (on_event && data_.scans.empty()) on_event("run", run_json(data_));
   data_.add_scan(record, model, plan);
+  if (on_event) on_event("scan", scan_json(data_.scans.back()));
+}
+
+void RunFolder::add_plan(const Plan& plan) {
+  if (on_event) on_event("plan", plan_json(candidate_plan(plan, description_.candidates.views.size())));
 }
 
 void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
@@ -89,21 +102,20 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
   write_file_atomically(path_ / "views.csv", views_csv(model.scans));
   write_file_atomically(path_ / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
   write_file_atomically(path_ / "summary.json", summary_json(model, summary).dump(2) + "\n");
-  if (pictures == RunPictures::mesh_and_report) write_report(model, summary, next, total_seconds);
-}
-
-void RunFolder::write_report(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
-                             double total_seconds) {
-  const TriangleMesh mesh = surface_mesh(object_cloud(model));
-  if (!mesh.triangles.empty()) write_mesh_ply(path_ / "mesh.ply", mesh);
-  data_.seed = summary.seed;
-  data_.simulated = description_.truth.has_value();
-  data_.grid = model.map.grid();
-  data_.enclosure = model.map.enclosure();
-  if (description_.truth) data_.truth = *description_.truth;
-  data_.mesh = mesh;
+  if (pictures == RunPictures::none && !on_event) return;
   data_.finish(model, summary.stop_reason);
   if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
+  if (pictures == RunPictures::mesh_and_report) write_report(model, total_seconds);
+  if (!on_event) return;
+  if (data_.next) on_event("plan", plan_json(*data_.next));
+  on_event("result", result_json(data_));
+  on_event("state", state_json(data_));
+}
+
+void RunFolder::write_report(const ObjectModel& model, double total_seconds) {
+  const TriangleMesh mesh = surface_mesh(object_cloud(model));
+  if (!mesh.triangles.empty()) write_mesh_ply(path_ / "mesh.ply", mesh);
+  data_.mesh = mesh;
   write_file_atomically(path_ / "report.html", report_page(data_, model.map, total_seconds));
 }
 

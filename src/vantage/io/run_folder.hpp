@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string_view>
 
 #include "vantage/io/run_data.hpp"
 #include "vantage/io/run_files.hpp"
@@ -18,6 +20,7 @@ struct RunDescription {
   Candidates candidates;
   std::string candidates_text;
   std::optional<TriangleMesh> truth;  // simulation only
+  std::optional<std::uint64_t> seed;  // of what is random in the run
 };
 
 enum class RunPictures { none, mesh_and_report };
@@ -30,16 +33,21 @@ class RunFolder {
   RunFolder(std::filesystem::path path, RunDescription description);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Hears all that a page needs to follow the run (docs/report-data.md, "Live"): `run` with the whole document at the
+  /// first scan, `scan`, `plan`, and `result` and `state` at the end.
+  std::function<void(std::string_view event, const nlohmann::ordered_json& data)> on_event;
+
   /// Notes a scan for the report and writes it to `scans/`: what the sensor measured, and the registered pose (the
   /// believed one where registration failed). `model` as it is after the scan.
   void add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan);
+  /// Tells of a plan that will lead to the next scan.
+  void add_plan(const Plan& plan);
   /// Writes everything else.
   void finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
               double total_seconds, RunPictures pictures);
 
  private:
-  void write_report(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
-                    double total_seconds);
+  void write_report(const ObjectModel& model, double total_seconds);
 
   std::filesystem::path path_;
   RunDescription description_;

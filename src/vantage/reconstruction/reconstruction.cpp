@@ -125,6 +125,7 @@ void Reconstruction::run(ObjectModel& model, int initial_candidate) {
       stop_reason_ = planner_.why_finished();
       return;
     }
+    on_plan(*plan);
     if (!robot_.move_to(plan->best.view)) {
       planner_.discard(plan->best.candidate, "the robot could not reach it");
       continue;

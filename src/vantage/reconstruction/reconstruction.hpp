@@ -48,6 +48,8 @@ class Reconstruction {
   /// Called with each finished record before it is added to the model; may add what only the caller knows (coverage).
   std::function<void(ScanRecord&, const Scan&, const ObjectModel&, const Plan*)> on_scan =
       [](ScanRecord&, const Scan&, const ObjectModel&, const Plan*) {};
+  /// Called with each plan before the robot moves.
+  std::function<void(const Plan&)> on_plan = [](const Plan&) {};
   /// Asked between scans; true ends the reconstruction with what has been scanned so far.
   std::function<bool()> interrupted = [] { return false; };
 

@@ -41,6 +41,7 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   loop.budget = options.budget();
   loop.quality = options.quality_reference();
   loop.interrupted = observer.interrupted;
+  loop.on_plan = observer.on_plan;
   loop.on_scan = [&](ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
     record.true_view = robot.true_view();
     record.coverage = object.truth().coverage(model.map);

@@ -26,6 +26,7 @@ class SimulatedObject {
 struct RunObserver {
   std::function<void(const ScanRecord&, const Scan&, const ObjectModel&, const Plan*)> on_scan =
       [](const ScanRecord&, const Scan&, const ObjectModel&, const Plan*) {};
+  std::function<void(const Plan&)> on_plan = [](const Plan&) {};
   std::function<bool()> interrupted = [] { return false; };
 };
 

@@ -1,0 +1,56 @@
+#include "page_server.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <chrono>
+#include <thread>
+
+#include "interrupt.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/server/random_name.hpp"
+
+namespace vantage::app {
+
+int port_from_text(const std::string& text, const std::string& option) {
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  require(error == std::errc() && end == text.data() + text.size() && port >= 0 && port <= 65535, option, " = ", text,
+          ": must be a port, 1 to 65535, or 0 for any free one");
+  return port;
+}
+
+void add_page_server_options(CLI::App& command, PageServerOptions& options) {
+  command
+      .add_option("--host", options.host,
+                  "address that the page is served at; 0.0.0.0 lets other machines in, who then need the token")
+      ->capture_default_str();
+  command.add_option("--token", options.token,
+                     "what browsers must know to come in (16 or more letters and digits); made up where it is needed");
+}
+
+std::unique_ptr<HttpServer> page_server(const PageServerOptions& options, LiveRun& run) {
+  HttpServerOptions http;
+  http.host = options.host;
+  http.port = options.port;
+  http.token = options.token;
+  if (http.token.empty() && !is_loopback(http.host)) http.token = random_name();
+  auto server = std::make_unique<HttpServer>(std::move(http));
+  add_page(*server, run);
+  return server;
+}
+
+void start_and_tell(HttpServer& server) {
+  server.start();
+  fmt::print(stderr, "the page is at {}\n", server.url());
+}
+
+void wait_for_interrupt(const std::function<void()>& meanwhile) {
+  fmt::print(stderr, "Ctrl-C ends it\n");
+  while (!was_interrupted()) {
+    meanwhile();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+}  // namespace vantage::app

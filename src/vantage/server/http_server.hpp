@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace vantage {
+
+class LiveRun;
+
+struct HttpRequest {
+  std::map<std::string, std::string> query;
+  std::string content_type;  // without parameters, lower case
+  std::string body;
+};
+
+struct HttpAnswer {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::shared_ptr<const std::string> body;  // null: empty
+  std::string file_name = {};               // not empty: the browser saves it under this name
+
+  /// {"error": text}.
+  [[nodiscard]] static HttpAnswer error(int status, const std::string& text);
+};
+
+/// Thrown by a handler to answer with `status` and {"error": text}.
+struct HttpError : std::runtime_error {
+  HttpError(int http_status, const std::string& text) : std::runtime_error(text), status(http_status) {}
+  int status;
+};
+
+/// What is answered under one path. The handler runs in a thread of the server, several at a time. InputError thrown by
+/// it becomes 400, any other exception 500.
+struct HttpRoute {
+  enum class Method { get, post };
+
+  Method method = Method::get;
+  std::string path;  // exactly this one, without the query
+  std::function<HttpAnswer(const HttpRequest&)> handle = {};
+  std::string body_type = "application/json";     // of a POST; browsers send it across sites only where they may
+  std::size_t max_body = std::size_t{64} * 1024;  // bytes
+};
+
+struct HttpServerOptions {
+  std::string host = "127.0.0.1";  // address to listen at
+  int port = 0;                    // 0: any free one
+  std::string token = {};          // who knows it may come in; empty: everybody, on a loopback address only
+  int max_connections = 64;        // at a time; half of them may listen to events
+  int timeout = 5;                 // seconds that a browser may keep a connection waiting
+
+  /// Throws InputError naming the field.
+  void validate() const;
+};
+
+/// Whether only programs of this machine reach `host`.
+[[nodiscard]] bool is_loopback(const std::string& host);
+
+/// HTTP for the page: answers only what was added, so no file of the machine can be asked for. Requests that carry the
+/// name of another host are refused, which keeps other web pages from reaching a server on this machine through DNS.
+/// With a token every request needs it: in the query (`?token=`, which leaves a cookie behind), as cookie, or as
+/// bearer.
+class HttpServer {
+ public:
+  explicit HttpServer(HttpServerOptions options);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  /// Before start().
+  void add(HttpRoute route);
+  /// Server-sent events of `run`, which must outlive the server; stop() closes it. Before start().
+  void add_events(const std::string& path, LiveRun& run);
+
+  /// Listens in threads of its own. Throws Error where the address cannot be had.
+  void start();
+  /// Ends all connections and threads; at most `timeout` seconds.
+  void stop();
+
+  [[nodiscard]] int port() const;
+  /// What to open in a browser, with the token.
+  [[nodiscard]] std::string url() const;
+
+ private:
+  struct Connections;
+  std::unique_ptr<Connections> connections_;
+};
+
+/// Adds the page at `/`, `GET /api/run` and `GET /api/events` (docs/report-data.md, "Live").
+void add_page(HttpServer& server, LiveRun& run);
+
+}  // namespace vantage
