@@ -98,7 +98,7 @@ BatchView batch_view(const PixelFrame& frame, Coverage& coverage) {
   batch.row_error = static_cast<float>(center_error(sizes, pixel_per_voxel, at_middle, 1, batch.rows));
   set_line_errors(batch, sizes);
 
-  batch.tiles = coverage.first_tile();
+  batch.strips = coverage.first_strip();
   batch.stride = coverage.stride();
   return batch;
 }

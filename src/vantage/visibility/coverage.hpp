@@ -9,36 +9,38 @@
 
 namespace vantage {
 
-/// The pixels of a ray grid that a voxel already covers, one bit each, in tiles of 8 x 8 pixels: row r of a tile is its
-/// byte r, column c the bit c of that byte. Pixels outside of the frame count as covered from the start, and a border
-/// of such tiles surrounds the frame, so that footprints need no clipping.
+/// The pixels of a ray grid that a voxel already covers, one bit each, in strips eight columns wide: a strip has one
+/// byte per row, with column c as bit c. Eight rows of a strip, from any row on, are thus one word. Pixels outside of
+/// the frame count as covered from the start, and a border of such pixels surrounds the frame, so that footprints need
+/// no clipping.
 class Coverage {
  public:
-  static constexpr int border = 2;  // tiles
+  static constexpr int border_strips = 2;
+  static constexpr int border_rows = 16;
+  static_assert(std::endian::native == std::endian::little, "row r of a word is taken to be its r-th byte in memory");
 
   void reset(Resolution resolution);
 
-  /// Words from one row of tiles to the next.
+  /// Bytes from one strip to the next.
   [[nodiscard]] int stride() const { return stride_; }
-  /// The tile of pixel (0, 0); tile (row, column) lies at [row * stride() + column].
-  [[nodiscard]] std::uint64_t* first_tile() { return tiles_.data() + border * stride_ + border; }
+  /// The byte of pixel (0, 0).
+  [[nodiscard]] std::uint8_t* first_strip() { return strips_.data() + border_strips * stride_ + border_rows; }
 
   /// Covers the open pixels `first`..`last` of a row. Pixels outside of `first_sure`..`last_sure` are covered only
   /// where `hits(column)` says so. Returns whether any pixel was covered.
   template <class Hits>
   bool cover_row(int row, int first, int last, int first_sure, int last_sure, const Hits& hits) {
     bool any = false;
-    std::uint64_t* tiles = first_tile() + static_cast<std::ptrdiff_t>(row >> 3) * stride_;
-    const int shift = 8 * (row & 7);
-    for (int tile = first >> 3; tile <= last >> 3; ++tile) {
-      const unsigned open = bits(first - 8 * tile, last - 8 * tile) & ~static_cast<unsigned>(tiles[tile] >> shift);
+    for (int strip = first >> 3; strip <= last >> 3; ++strip) {
+      std::uint8_t& pixels = first_strip()[static_cast<std::ptrdiff_t>(strip) * stride_ + row];
+      const unsigned open = bits(first - 8 * strip, last - 8 * strip) & ~static_cast<unsigned>(pixels);
       if (open == 0) continue;
-      unsigned covered = open & bits(first_sure - 8 * tile, last_sure - 8 * tile);
+      unsigned covered = open & bits(first_sure - 8 * strip, last_sure - 8 * strip);
       for (unsigned doubtful = open & ~covered; doubtful != 0; doubtful &= doubtful - 1) {
         const int column = std::countr_zero(doubtful);
-        if (hits(8 * tile + column)) covered |= 1U << column;
+        if (hits(8 * strip + column)) covered |= 1U << column;
       }
-      tiles[tile] |= static_cast<std::uint64_t>(covered) << shift;
+      pixels = static_cast<std::uint8_t>(pixels | covered);
       any |= covered != 0;
     }
     return any;
@@ -52,7 +54,7 @@ class Coverage {
     return from > to ? 0U : (0xffU << from) & (0xffU >> (7 - to));
   }
 
-  std::vector<std::uint64_t> tiles_;
+  std::vector<std::uint8_t> strips_;
   int stride_ = 0;
 };
 

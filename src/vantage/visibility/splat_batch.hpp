@@ -25,8 +25,8 @@ struct BatchView {
   float line_error;                     // of a nearly level half-plane's value at a pixel of the voxel's window
   float column_error;                   // of every border, in columns, and
   float column_error_of_steepness;      // that of the border of column*c + row*r + k > 0, times |column|
-  std::uint64_t* tiles;                 // Coverage::first_tile()
-  std::ptrdiff_t stride;
+  std::uint8_t* strips;                 // Coverage::first_strip()
+  std::int32_t stride;                  // bytes from strip to strip
   /// Takes the voxels that need double precision; returns whether they are visible.
   bool (*splat_one)(const void* context, std::uint32_t packed_voxel);
   const void* context;

@@ -1,236 +1,61 @@
 #pragma once
 
-#include "vantage/visibility/splat_batch.hpp"
+#include "vantage/visibility/silhouette_kernel.hpp"
 
-// The vectorised path, written once for all vector types V: one voxel per lane. See docs/performance.md for the figure
-// to which the names belong. Only templates on V here, see splat_batch.hpp.
+// What happens to silhouettes on the pixels: hidden ones are dropped, the others drawn and pressed into the coverage,
+// front to back. Only templates on V here, see splat_batch.hpp.
 namespace vantage::simd {
 
-/// What is found out about a batch of voxels before their pixels are looked at, one voxel per lane. A voxel's window
-/// are the 16 columns from a tile's border on, and up to 16 rows, that enclose its silhouette.
-template <class V>
-struct Window {
-  typename V::Float column, row;  // the projected centre, from the window's first pixel
-  typename V::Float inverse_depth;
-  typename V::Int first_column, first_row;  // of the window; in the frame
-  typename V::Int rows;
-  typename V::Int outside;  // mask: no pixel of the frame lies in the silhouette's bounds
-  typename V::Int special;  // mask: left to double precision
-};
-
-/// The silhouette's borders as columns left[k] + row*left_slope[k] < column < right[k] + row*right_slope[k], for pixels
-/// from the window's first one.
-template <class V>
-struct Borders {
-  typename V::Float left[3], left_slope[3], right[3], right_slope[3];
-  typename V::Float steepness;  // largest 1/|column| of the half-planes
-  typename V::Int special;
-};
-
-/// 16 x 16 pixels per lane: four rows of eight pixels per word, in the columns 0..7 (left) and 8..15 (right).
+/// 16 x 16 pixels per lane: eight rows of eight pixels per word, in the columns 0..7 (left) and 8..15 (right). Row r is
+/// byte r of its word, as in Coverage.
 template <class V>
 struct Stamp {
-  alignas(64) std::uint32_t left[4][V::lanes];
-  alignas(64) std::uint32_t right[4][V::lanes];
+  alignas(64) std::uint64_t left[2][V::lanes];
+  alignas(64) std::uint64_t right[2][V::lanes];
 };
 
-constexpr float window_side = 16;
-constexpr float slope_of_level = 0x1p16F;  // columns per row that stand for a level line
-constexpr float levelness = 0x1p-11F;      // lines of a smaller |column/row| are level
-constexpr float sub_pixels = 0x1p16F;      // columns are compared in fixed point
+constexpr float sub_pixels = 0x1p16F;  // columns are compared in fixed point
 constexpr std::int32_t sub_pixel_bits = 16;
 
-/// Where a batch's voxels are.
+/// Where each lane's window begins in the coverage: bytes from pixel (0, 0).
 template <class V>
-struct Place {
-  typename V::Float index[3];   // from the view's middle voxel
-  typename V::Float offset[3];  // of the centre from the camera, in voxels
-  typename V::Int in_slab[3];   // mask: the camera is in the same slab of that axis
-  typename V::Int few_sides;    // mask: ... on two axes or more, where silhouettes have fewer than six edges
+typename V::Int places_of(const BatchView& view, const Window<V>& window) {
+  return (window.first_column >> 3) * V::all(view.stride) + window.first_row;
+}
+
+/// Rows `first`.. of 16 columns per lane (bits 0..15 of each of `rows`), as words of four rows of eight columns each.
+template <class V>
+struct FourRows {
+  typename V::Int left, right;
 };
-
 template <class V>
-Place<V> place_of(const BatchView& view, typename V::Int voxels) {
+FourRows<V> four_rows(typename V::Int even, typename V::Int odd) {
+  const typename V::Int low_bytes = V::all(0x00ff00ff);
+  return {(even & low_bytes) | (odd & low_bytes) << 8, ((even >> 8) & low_bytes) | (odd & ~low_bytes)};
+}
+
+/// The lanes in which the silhouette's bounds have no open pixel, so that the voxel is hidden for certain. Bounds of
+/// more than eight rows are not looked at.
+template <class V>
+unsigned hidden_lanes(const BatchView& view, const Window<V>& window) {
   using Int = typename V::Int;
-  const Int index[3] = {voxels & V::all(1023), (voxels >> 10) & V::all(1023), (voxels >> 20) & V::all(1023)};
-  Place<V> place;
-  for (int a = 0; a < 3; ++a) {
-    place.index[a] = V::to_float(index[a] - V::all(view.middle[a]));
-    place.offset[a] = place.index[a] + V::all(view.offset[a]);
-    place.in_slab[a] = index[a] == V::all(view.cell[a]);
-  }
-  place.few_sides = (place.in_slab[0] & place.in_slab[1]) | (place.in_slab[1] & place.in_slab[2]) |
-                    (place.in_slab[2] & place.in_slab[0]);
-  return place;
-}
-
-/// A voxel's centre as (column*depth, row*depth, depth), in double precision: its error would shift all borders.
-template <class V>
-typename V::Double pixel_of(const BatchView& view, const typename V::Double (&index)[3], int i) {
-  typename V::Double sum = V::all(view.pixel_of_middle[i]);
-  for (int a = 0; a < 3; ++a) sum = V::multiply_add(V::all(view.pixel_per_voxel[i][a]), index[a], sum);
-  return sum;
-}
-
-/// How far the silhouette reaches from its centre, in pixels: see extent() in footprint.cpp for the bound.
-template <class V>
-typename V::Float reach(const double (&pixel)[3], const double (&depth)[3], typename V::Float middle,
-                        typename V::Float inverse_nearest) {
-  typename V::Float sum = V::all(0.0F);
-  for (int a = 0; a < 3; ++a) {
-    const auto per_depth = static_cast<float>(depth[a]);
-    sum += V::absolute(V::multiply_add(-middle, V::all(per_depth), V::all(static_cast<float>(pixel[a]))));
-  }
-  return V::all(0.5F) * sum * inverse_nearest;
-}
-
-template <class V>
-Window<V> window_of(const BatchView& view, const Place<V>& place) {
-  using Float = typename V::Float;
-  using Int = typename V::Int;
-  using Double = typename V::Double;
-  const Double index[3] = {V::to_double(place.index[0]), V::to_double(place.index[1]), V::to_double(place.index[2])};
-  const Double exact_depth = pixel_of<V>(view, index, 2);
-  const Float depth = V::to_float(exact_depth);
-  const Float nearest = depth - V::all(view.half_depth);
-  const Float farthest = depth + V::all(view.half_depth);
-  const Int is_cut = (nearest < V::all(view.nearest_depth)) | (farthest > V::all(view.farthest_depth));
-  const Int is_unseen = (farthest < V::all(view.before_depth)) | (nearest > V::all(view.beyond_depth));
-  const Float safe_depth = V::max(depth, V::all(view.nearest_depth));
-  const Float inverse_depth = V::all(1.0F) / safe_depth;
-  const Float inverse_nearest = V::all(1.0F) / V::max(nearest, V::all(view.nearest_depth));
-  // One step of Newton's method doubles the digits of the reciprocal.
-  const Double rough = V::to_double(inverse_depth);
-  const Double exact_inverse = rough * (V::all(2.0) - exact_depth * rough);
-  const Double exact_column = pixel_of<V>(view, index, 0) * exact_inverse;
-  const Double exact_row = pixel_of<V>(view, index, 1) * exact_inverse;
-  const Float column = V::to_float(exact_column);
-  const Float row = V::to_float(exact_row);
-  const Float column_reach =
-      reach<V>(view.pixel_per_voxel[0], view.pixel_per_voxel[2], column, inverse_nearest) + V::all(0.01F);
-  const Float row_reach =
-      reach<V>(view.pixel_per_voxel[1], view.pixel_per_voxel[2], row, inverse_nearest) + V::all(0.01F);
-  const Float far_out = V::all(0x1p20F);  // keeps the conversions to integers in range
-  const auto whole = [&](Float x) { return V::floor(V::max(V::min(x, far_out), -far_out)); };
-  const Int first_column = whole(column - column_reach) + V::all(view.middle_column + 1);
-  const Int last_column = whole(column + column_reach) + V::all(view.middle_column);
-  const Int first_row = whole(row - row_reach) + V::all(view.middle_row + 1);
-  const Int last_row = whole(row + row_reach) + V::all(view.middle_row);
-
-  Window<V> window;
-  window.inverse_depth = inverse_depth;
-  window.first_column = first_column & V::all(~7);
-  window.first_row = first_row;
-  window.rows = last_row - first_row + 1;
-  const Int is_off = ((last_column < 0) | (last_row < 0) | (first_column >= V::all(view.columns)) |
-                      (first_row >= V::all(view.rows)) | (first_column > last_column) | (first_row > last_row));
-  window.outside = is_unseen | (is_off & ~is_cut);
-  const Int is_large = (last_column - window.first_column >= 16) | (last_row - (first_row & V::all(~7)) >= 16);
-  window.special = is_cut | is_large | place.few_sides;
-  const auto from = [](Double exact, Int first) { return V::to_float(exact - V::to_double(V::to_float(first))); };
-  window.column = from(exact_column, window.first_column - V::all(view.middle_column));
-  window.row = from(exact_row, window.first_row - V::all(view.middle_row));
-  return window;
-}
-
-/// One of a pair's two half-planes, about the projected centre: column*c + row*r + constant > 0.
-template <class V>
-struct HalfPlane {
-  typename V::Float column, row, constant;
-};
-
-/// A line's border column as slope*r + offset, and 1/|column|. `sense` has the sign that `column` must have; a level
-/// line becomes a very steep one of that sense. Lines that fit neither are special.
-template <class V>
-struct Border {
-  typename V::Float slope, offset, steepness;
-  typename V::Int special;
-};
-
-template <class V>
-Border<V> border_of(const BatchView& view, const Window<V>& window, const HalfPlane<V>& line, typename V::Float sense) {
-  using Float = typename V::Float;
-  using Int = typename V::Int;
-  const Float column_size = V::absolute(line.column);
-  const Float row_size = V::absolute(line.row);
-  const Int is_level = column_size <= V::all(levelness) * row_size;
-  const Int is_against = line.column * sense <= V::all(0.0F);
-  Border<V> border;
-  border.special = is_against & ~is_level;
-  Float column = line.column;
-  border.steepness = V::all(0.0F);
-  if (V::lane_bits(is_level) != 0) {
-    column = V::select(is_level, sense * V::max(row_size, V::all(0x1p-60F)) * V::all(1 / slope_of_level), column);
-    // The row in which the line lies must be told apart from the pixels' rows.
-    const Float far_off = V::all(0x1p20F);
-    const Float crossing = V::max(V::min(window.row - line.constant / line.row, far_off), -far_off);
-    const Float doubt = V::all(view.row_error + 64 / slope_of_level) +
-                        (V::all(2 * window_side) * column_size + V::all(view.line_error)) / row_size;
-    const Float near_row = V::absolute(crossing - V::to_float(V::floor(crossing + V::all(0.5F))));
-    border.special |= is_level & ~(near_row > doubt);
-  }
-  const Float inverse = V::all(1.0F) / column;
-  border.steepness = V::select(is_level, V::all(0.0F), V::absolute(inverse));
-  border.slope = -line.row * inverse;
-  border.offset = V::multiply_add(-border.slope, window.row, -line.constant * inverse) + window.column;
-  return border;
-}
-
-/// In the camera's slab of axis a the ray need not enter a: its silhouette's edge lies on the near face of b.
-template <class V>
-void move_to_near_face(const BatchView& view, const BatchRegion& region, const Place<V>& place, int a,
-                       const Window<V>& window, HalfPlane<V>& line) {
-  using Float = typename V::Float;
-  const Float one = V::select(place.in_slab[a], V::all(region.side[a]), V::all(0.0F));
-  line.column -= one * V::all(view.per_column[a]);
-  line.row -= one * V::all(view.per_row[a]);
-  line.constant -= one * place.offset[a] * window.inverse_depth;
-}
-
-/// Both half-planes of pair c.
-template <class V>
-void lines_of(const BatchView& view, const BatchRegion& region, const Place<V>& place, const Window<V>& window, int c,
-              HalfPlane<V> (&lines)[2]) {
-  using Float = typename V::Float;
-  const int a = (c + 1) % 3;
-  const int b = (c + 2) % 3;
-  const BatchPair& pair = region.pair[c];
-  const Float column = V::multiply_add(V::all(pair.column_per_voxel[0]), place.index[a],
-                                       V::all(pair.column_per_voxel[1]) * place.index[b]);
-  const Float row =
-      V::multiply_add(V::all(pair.row_per_voxel[0]), place.index[a], V::all(pair.row_per_voxel[1]) * place.index[b]);
-  const Float constant =
-      V::multiply_add(V::all(0.5F * region.side[a]), place.offset[a], V::all(0.5F * region.side[b]) * place.offset[b]) *
-      window.inverse_depth;
-  lines[0] = {V::all(pair.column_of_middle[0]) + column, V::all(pair.row_of_middle[0]) + row, constant};
-  lines[1] = {V::all(pair.column_of_middle[1]) - column, V::all(pair.row_of_middle[1]) - row, constant};
-  if (V::lane_bits(place.in_slab[a]) != 0) move_to_near_face<V>(view, region, place, a, window, lines[0]);
-  if (V::lane_bits(place.in_slab[b]) != 0) move_to_near_face<V>(view, region, place, b, window, lines[1]);
-}
-
-template <class V>
-Borders<V> borders_of(const BatchView& view, const BatchRegion& region, const Place<V>& place,
-                      const Window<V>& window) {
-  using Float = typename V::Float;
-  Borders<V> borders;
-  borders.steepness = V::all(0.0F);
-  borders.special = V::all(0);
-  for (int c = 0; c < 3; ++c) {
-    HalfPlane<V> lines[2];
-    lines_of<V>(view, region, place, window, c, lines);
-    // One border is on the left and one on the right; the first is on the left where its column is positive.
-    const auto is_first_left = lines[0].column >= lines[1].column;
-    const Float sense = V::select(is_first_left, V::all(1.0F), V::all(-1.0F));
-    const Border<V> first = border_of<V>(view, window, lines[0], sense);
-    const Border<V> second = border_of<V>(view, window, lines[1], -sense);
-    borders.left[c] = V::select(is_first_left, first.offset, second.offset);
-    borders.left_slope[c] = V::select(is_first_left, first.slope, second.slope);
-    borders.right[c] = V::select(is_first_left, second.offset, first.offset);
-    borders.right_slope[c] = V::select(is_first_left, second.slope, first.slope);
-    borders.steepness = V::max(borders.steepness, V::max(first.steepness, second.steepness));
-    borders.special |= first.special | second.special;
-  }
-  return borders;
+  const Int is_asked = ~(window.outside | window.special) & (window.rows <= 8);
+  const Int row = V::ones_above(window.before & V::all(7)) &
+                  ~V::ones_above((window.before + window.columns) & is_asked & V::all(31));
+  const Int columns = (row & V::all(0xffff)) | row << 16;
+  const FourRows<V> box = four_rows<V>(columns, columns);
+  // The lowest `rows` bytes; all four of them cannot be had by a shift.
+  const auto bytes_below = [](Int rows) {
+    return ~V::ones_above(V::max(V::min(rows, V::all(3)), V::all(0)) << 3) | (rows >= 4);
+  };
+  const Int upper = bytes_below(window.rows);
+  const Int lower = bytes_below(window.rows - 4);
+  const Int place = places_of<V>(view, window) & is_asked;
+  const auto is_open = [&](Int columns_of_strip, const std::uint8_t* strip) {
+    return V::any_open(strip, place, columns_of_strip & upper, columns_of_strip & lower);
+  };
+  const unsigned open = is_open(box.left, view.strips) | is_open(box.right, view.strips + view.stride);
+  return V::lane_bits(is_asked) & ~open;
 }
 
 /// Marks the pixels between the borders, row by row. Returns a mask of the lanes in which a border runs closer to a
@@ -266,45 +91,44 @@ typename V::Int draw(const BatchView& view, Borders<V>& borders, std::int32_t ro
     closest = V::min(closest, V::min(from & fraction, to & fraction));
     return V::ones_above(from >> sub_pixel_bits) & ~V::ones_above(to >> sub_pixel_bits);
   };
-  const Int low_bytes = V::all(0x00ff00ff);
-  std::int32_t group = 0;
-  for (; 4 * group < rows; ++group) {
-    Int even = row_bits(4 * group);
-    Int odd = row_bits(4 * group + 1);
-    if (4 * group + 2 < rows) {
-      even |= row_bits(4 * group + 2) << 16;
-      odd |= row_bits(4 * group + 3) << 16;
+  const auto rows_from = [&](std::int32_t row) {
+    Int even = row_bits(row);
+    Int odd = row_bits(row + 1);
+    if (row + 2 < rows) {
+      even |= row_bits(row + 2) << 16;
+      odd |= row_bits(row + 3) << 16;
     }
-    V::store(stamp.left[group], (even & low_bytes) | (odd & low_bytes) << 8);
-    V::store(stamp.right[group], ((even >> 8) & low_bytes) | (odd & ~low_bytes));
-  }
-  for (; group < 4; ++group) {  // of the batch before
-    V::store(stamp.left[group], V::all(0));
-    V::store(stamp.right[group], V::all(0));
+    return four_rows<V>(even, odd);
+  };
+  for (std::int32_t half = 0; 8 * half < rows; ++half) {
+    const FourRows<V> upper = rows_from(8 * half);
+    FourRows<V> lower{V::all(0), V::all(0)};
+    if (8 * half + 4 < rows) lower = rows_from(8 * half + 4);
+    V::store_words(stamp.left[half], upper.left, lower.left);
+    V::store_words(stamp.right[half], upper.right, lower.right);
   }
   return (closest <= V::truncate(V::multiply_add(error, V::all(2 * sub_pixels), V::all(4.0F)))) |
          (error > V::all(0.1F));
 }
 
-/// Covers the open pixels of one lane's stamp; whether there were any.
+/// Covers the open pixels of one lane's stamp, which has so many rows; whether there were any.
 template <class V>
-bool press(const BatchView& view, const Stamp<V>& stamp, int lane, std::int32_t first_column, std::int32_t first_row,
-           std::int32_t rows) {
-  std::uint64_t* tile = view.tiles + (first_row >> 3) * view.stride + (first_column >> 3);
-  const unsigned shift = 8 * (static_cast<unsigned>(first_row) & 7U);
+bool press(const BatchView& view, const Stamp<V>& stamp, int lane, std::int32_t place, std::int32_t rows) {
   std::uint64_t any = 0;
-  const auto half = [&](const std::uint32_t(&words)[4][V::lanes], std::uint64_t* at) {
-    const std::uint64_t above = words[0][lane] | static_cast<std::uint64_t>(words[1][lane]) << 32U;
-    const std::uint64_t upper = above << shift;
-    // Shifted in two steps, because shifting by 64 does nothing.
-    std::uint64_t lower = above >> 1U >> (63U - shift);
-    if (rows > 8) lower |= (words[2][lane] | static_cast<std::uint64_t>(words[3][lane]) << 32U) << shift;
-    any |= (upper & ~at[0]) | (lower & ~at[view.stride]);
-    at[0] |= upper;
-    at[view.stride] |= lower;
+  const auto press_word = [&any](std::uint64_t pixels, std::uint8_t* at) {
+    std::uint64_t covered;
+    __builtin_memcpy(&covered, at, sizeof covered);
+    any |= pixels & ~covered;
+    covered |= pixels;
+    __builtin_memcpy(at, &covered, sizeof covered);
   };
-  half(stamp.left, tile);
-  half(stamp.right, tile + 1);
+  std::uint8_t* const at = view.strips + place;
+  press_word(stamp.left[0][lane], at);
+  press_word(stamp.right[0][lane], at + view.stride);
+  if (rows > 8) {
+    press_word(stamp.left[1][lane], at + 8);
+    press_word(stamp.right[1][lane], at + view.stride + 8);
+  }
   return any != 0;
 }
 
@@ -314,8 +138,7 @@ std::size_t splat_batches(const BatchView& view, const BatchRegion& region, cons
   using Int = typename V::Int;
   constexpr std::size_t lanes = V::lanes;
   Stamp<V> stamp;
-  alignas(64) std::uint32_t first_column[lanes];
-  alignas(64) std::uint32_t first_row[lanes];
+  alignas(64) std::uint32_t places[lanes];
   alignas(64) std::uint32_t rows[lanes];
   std::uint32_t last_batch[lanes] = {};
   std::size_t seen = 0;
@@ -329,21 +152,20 @@ std::size_t splat_batches(const BatchView& view, const BatchRegion& region, cons
     const Place<V> place = place_of<V>(view, V::load(batch));
     const Window<V> window = window_of<V>(view, place);
     unsigned active = ~V::lane_bits(window.outside) & ((2U << (used - 1)) - 1);
+    if (active != 0) active &= ~hidden_lanes<V>(view, window);
     if (active == 0) continue;
     Borders<V> borders = borders_of<V>(view, region, place, window);
     const Int is_drawn = ~(window.outside | window.special | borders.special);
     const Int doubtful = draw<V>(view, borders, V::largest(window.rows & is_drawn), stamp);
     const unsigned special = V::lane_bits(~is_drawn | doubtful);
-    V::store(first_column, window.first_column);
-    V::store(first_row, window.first_row);
+    V::store(places, places_of<V>(view, window));
     V::store(rows, window.rows);
     for (; active != 0; active &= active - 1) {
       const int lane = __builtin_ctz(active);
-      const bool is_visible =
-          (special >> lane & 1U) != 0
-              ? view.splat_one(view.context, batch[lane])
-              : press<V>(view, stamp, lane, static_cast<std::int32_t>(first_column[lane]),
-                         static_cast<std::int32_t>(first_row[lane]), static_cast<std::int32_t>(rows[lane]));
+      const bool is_visible = (special >> lane & 1U) != 0
+                                  ? view.splat_one(view.context, batch[lane])
+                                  : press<V>(view, stamp, lane, static_cast<std::int32_t>(places[lane]),
+                                             static_cast<std::int32_t>(rows[lane]));
       visible[seen] = batch[lane];
       seen += is_visible ? 1 : 0;
     }

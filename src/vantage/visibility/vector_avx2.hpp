@@ -54,11 +54,38 @@ struct VectorAvx2 {
       to += bits >> i & 1U;
     }
   }
+  static void store_words(std::uint64_t* to, Int low, Int high) {
+    auto* at = reinterpret_cast<__m256i*>(to);
+    _mm256_storeu_si256(at, first_words(low, high));
+    _mm256_storeu_si256(at + 1, last_words(low, high));
+  }
+  static unsigned any_open(const std::uint8_t* base, Int place, Int low, Int high) {
+    const auto* from = reinterpret_cast<const long long*>(base);
+    const __m256i first = _mm256_i32gather_epi64(from, _mm256_castsi256_si128(__m256i(place)), 1);
+    const __m256i last = _mm256_i32gather_epi64(from, _mm256_extracti128_si256(__m256i(place), 1), 1);
+    return words_set(_mm256_andnot_si256(first, first_words(low, high))) |
+           words_set(_mm256_andnot_si256(last, last_words(low, high))) << 4U;
+  }
   static std::int32_t largest(Int x) {
     __m128i half = _mm_max_epi32(_mm256_castsi256_si128(__m256i(x)), _mm256_extracti128_si256(__m256i(x), 1));
     half = _mm_max_epi32(half, _mm_shuffle_epi32(half, 0x4e));
     half = _mm_max_epi32(half, _mm_shuffle_epi32(half, 0xb1));
     return _mm_cvtsi128_si32(half);
+  }
+
+ private:
+  static __m256i first_words(Int low, Int high) {
+    const __m256i even = _mm256_unpacklo_epi32(__m256i(low), __m256i(high));
+    return _mm256_permute2x128_si256(even, _mm256_unpackhi_epi32(__m256i(low), __m256i(high)), 0x20);
+  }
+  static __m256i last_words(Int low, Int high) {
+    const __m256i even = _mm256_unpacklo_epi32(__m256i(low), __m256i(high));
+    return _mm256_permute2x128_si256(even, _mm256_unpackhi_epi32(__m256i(low), __m256i(high)), 0x31);
+  }
+  /// One bit per word that is not zero.
+  static unsigned words_set(__m256i words) {
+    const __m256i is_zero = _mm256_cmpeq_epi64(words, _mm256_setzero_si256());
+    return ~static_cast<unsigned>(_mm256_movemask_pd(_mm256_castsi256_pd(is_zero))) & 15U;
   }
 };
 

@@ -52,7 +52,31 @@ struct VectorAvx512 {
     // Compressed in a register: some processors are slow at compressing to memory.
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), __m512i(x)));
   }
+  /// One word of two vectors' lanes each, the first being the low half.
+  static void store_words(std::uint64_t* to, Int low, Int high) {
+    _mm512_storeu_si512(to, first_words(low, high));
+    _mm512_storeu_si512(to + 8, last_words(low, high));
+  }
+  /// The lanes whose word has a bit that the eight bytes at base + place do not have.
+  static unsigned any_open(const std::uint8_t* base, Int place, Int low, Int high) {
+    const __m512i first = _mm512_i32gather_epi64(_mm512_castsi512_si256(__m512i(place)), base, 1);
+    const __m512i last = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(__m512i(place), 1), base, 1);
+    const __m512i open_first = _mm512_andnot_si512(first, first_words(low, high));
+    const __m512i open_last = _mm512_andnot_si512(last, last_words(low, high));
+    return static_cast<unsigned>(_mm512_test_epi64_mask(open_first, open_first)) |
+           static_cast<unsigned>(_mm512_test_epi64_mask(open_last, open_last)) << 8U;
+  }
   static std::int32_t largest(Int x) { return _mm512_reduce_max_epi32(__m512i(x)); }
+
+ private:
+  static __m512i first_words(Int low, Int high) {
+    const __m512i order = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    return _mm512_permutex2var_epi32(__m512i(low), order, __m512i(high));
+  }
+  static __m512i last_words(Int low, Int high) {
+    const __m512i order = _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+    return _mm512_permutex2var_epi32(__m512i(low), order, __m512i(high));
+  }
 };
 
 }  // namespace vantage::simd

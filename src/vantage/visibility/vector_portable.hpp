@@ -66,10 +66,29 @@ struct VectorPortable {
       to += bits >> i & 1U;
     }
   }
+  /// One word of two vectors' lanes each, the first being the low half.
+  static void store_words(std::uint64_t* to, Int low, Int high) {
+    for (int i = 0; i < lanes; ++i) to[i] = word(low[i], high[i]);
+  }
+  /// The lanes whose word has a bit that the eight bytes at base + place do not have.
+  static unsigned any_open(const std::uint8_t* base, Int place, Int low, Int high) {
+    unsigned bits = 0;
+    for (int i = 0; i < lanes; ++i) {
+      std::uint64_t covered;
+      __builtin_memcpy(&covered, base + place[i], sizeof covered);
+      bits |= ((word(low[i], high[i]) & ~covered) != 0 ? 1U : 0U) << i;
+    }
+    return bits;
+  }
   static std::int32_t largest(Int x) {
     std::int32_t most = x[0];
     for (int i = 1; i < lanes; ++i) most = x[i] > most ? x[i] : most;
     return most;
+  }
+
+ private:
+  static std::uint64_t word(std::int32_t low, std::int32_t high) {
+    return static_cast<std::uint32_t>(low) | static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U;
   }
 };
 
