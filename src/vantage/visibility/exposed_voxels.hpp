@@ -61,6 +61,9 @@ class ExposedVoxels {
   [[nodiscard]] const std::vector<std::uint32_t>* octant(const std::array<int, 3>& side) const;
 
  private:
+  void collect_octants(int side_y, int side_z, std::vector<std::uint32_t>& descending,
+                       std::vector<std::uint32_t>& ascending) const;
+
   const VoxelMap* map_;
   std::array<std::vector<std::uint32_t>, 8> octants_;
   bool has_octants_ = false;
