@@ -17,8 +17,11 @@ std::string_view name(InstructionSet set) {
 std::vector<InstructionSet> available_instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::portable};
 #ifdef VANTAGE_X86_64
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) sets.push_back(InstructionSet::avx2);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) sets.push_back(InstructionSet::avx512);
+  const bool has_bit_moves = __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  if (has_bit_moves && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    sets.push_back(InstructionSet::avx2);
+  if (has_bit_moves && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+    sets.push_back(InstructionSet::avx512);
 #endif
   return sets;
 }

@@ -13,10 +13,10 @@ template <class V>
 struct Window {
   typename V::Float column, row;  // the projected centre, from the window's first pixel
   typename V::Float inverse_depth;
-  typename V::Int first_column, first_row;  // of the window; in the frame
-  typename V::Int before, columns, rows;    // the silhouette's bounds in it: columns before them, and their size
-  typename V::Int outside;                  // mask: no pixel of the frame lies in the silhouette's bounds
-  typename V::Int special;                  // mask: left to double precision
+  typename V::Int place;                  // of the window's first pixel in the coverage: bytes from pixel (0, 0)
+  typename V::Int before, columns, rows;  // the silhouette's bounds in it: columns before them, and their size
+  typename V::Int outside;                // mask: no pixel of the frame lies in the silhouette's bounds
+  typename V::Int special;                // mask: left to double precision
 };
 
 /// The silhouette's borders as columns left[k] + row*left_slope[k] < column < right[k] + row*right_slope[k], for pixels
@@ -111,19 +111,18 @@ Window<V> window_of(const BatchView& view, const Place<V>& place) {
 
   Window<V> window;
   window.inverse_depth = inverse_depth;
-  window.first_column = first_column & V::all(~7);
-  window.first_row = first_row;
+  window.place = (first_column >> 3) * V::all(view.stride) + first_row;
   window.before = first_column & V::all(7);
   window.columns = last_column - first_column + 1;
   window.rows = last_row - first_row + 1;
   const Int is_off = ((last_column < 0) | (last_row < 0) | (first_column >= V::all(view.columns)) |
                       (first_row >= V::all(view.rows)) | (first_column > last_column) | (first_row > last_row));
   window.outside = is_unseen | (is_off & ~is_cut);
-  const Int is_large = (last_column - window.first_column >= 16) | (window.rows > 16);
+  const Int is_large = (window.before + window.columns > 16) | (window.rows > 16);
   window.special = is_cut | is_large | place.few_sides;
   const auto from = [](Double exact, Int first) { return V::to_float(exact - V::to_double(V::to_float(first))); };
-  window.column = from(exact_column, window.first_column - V::all(view.middle_column));
-  window.row = from(exact_row, window.first_row - V::all(view.middle_row));
+  window.column = from(exact_column, (first_column & V::all(~7)) - V::all(view.middle_column));
+  window.row = from(exact_row, first_row - V::all(view.middle_row));
   return window;
 }
 

@@ -17,12 +17,6 @@ struct Stamp {
 constexpr float sub_pixels = 0x1p16F;  // columns are compared in fixed point
 constexpr std::int32_t sub_pixel_bits = 16;
 
-/// Where each lane's window begins in the coverage: bytes from pixel (0, 0).
-template <class V>
-typename V::Int places_of(const BatchView& view, const Window<V>& window) {
-  return (window.first_column >> 3) * V::all(view.stride) + window.first_row;
-}
-
 /// Rows `first`.. of 16 columns per lane (bits 0..15 of each of `rows`), as words of four rows of eight columns each.
 template <class V>
 struct FourRows {
@@ -50,7 +44,7 @@ unsigned hidden_lanes(const BatchView& view, const Window<V>& window) {
   };
   const Int upper = bytes_below(window.rows);
   const Int lower = bytes_below(window.rows - 4);
-  const Int place = places_of<V>(view, window) & is_asked;
+  const Int place = window.place & is_asked;
   const auto is_open = [&](Int columns_of_strip, const std::uint8_t* strip) {
     return V::any_open(strip, place, columns_of_strip & upper, columns_of_strip & lower);
   };
@@ -132,14 +126,69 @@ bool press(const BatchView& view, const Stamp<V>& stamp, int lane, std::int32_t 
   return any != 0;
 }
 
+/// Voxels that are not hidden yet, until there are enough for all lanes.
+template <class V>
+struct Queue {
+  enum Field { voxel, column, row, inverse_depth, place, rows, fields };  // rows: all bits set where special
+  alignas(64) std::uint32_t values[fields][2 * V::lanes] = {};
+  std::size_t count = 0;
+
+  void push(typename V::Int voxels, const Window<V>& window, unsigned lanes) {
+    const auto put = [&](Field field, typename V::Int x) { V::store_lanes(values[field] + count, x, lanes); };
+    put(voxel, voxels);
+    put(column, V::float_to_bits(window.column));
+    put(row, V::float_to_bits(window.row));
+    put(inverse_depth, V::float_to_bits(window.inverse_depth));
+    put(place, window.place);
+    put(rows, window.rows | window.special);
+    count += static_cast<std::size_t>(__builtin_popcount(lanes));
+  }
+  [[nodiscard]] Window<V> front() const {
+    Window<V> window;
+    window.column = V::bits_to_float(V::load(values[column]));
+    window.row = V::bits_to_float(V::load(values[row]));
+    window.inverse_depth = V::bits_to_float(V::load(values[inverse_depth]));
+    window.rows = V::load(values[rows]);
+    window.special = window.rows < 0;
+    return window;
+  }
+  void drop_front() {
+    count -= V::lanes;
+    for (int field = 0; field < fields; ++field) V::store(values[field], V::load(values[field] + V::lanes));
+  }
+};
+
+/// Splats the first voxels of the queue, `visible` as in SplatBatch.
+template <class V>
+std::size_t splat_front(const BatchView& view, const BatchRegion& region, const Queue<V>& queue,
+                        std::uint32_t* visible) {
+  using Int = typename V::Int;
+  const Window<V> window = queue.front();
+  const Place<V> place = place_of<V>(view, V::load(queue.values[Queue<V>::voxel]));
+  Borders<V> borders = borders_of<V>(view, region, place, window);
+  const Int is_drawn = ~(window.special | borders.special);
+  Stamp<V> stamp;
+  const Int doubtful = draw<V>(view, borders, V::largest(window.rows & is_drawn), stamp);
+  const unsigned special = V::lane_bits(~is_drawn | doubtful);
+  const int used = static_cast<int>(queue.count < V::lanes ? queue.count : V::lanes);
+  std::size_t seen = 0;
+  for (int lane = 0; lane < used; ++lane) {
+    const bool is_visible =
+        (special >> lane & 1U) != 0
+            ? view.splat_one(view.context, queue.values[Queue<V>::voxel][lane])
+            : press<V>(view, stamp, lane, static_cast<std::int32_t>(queue.values[Queue<V>::place][lane]),
+                       static_cast<std::int32_t>(queue.values[Queue<V>::rows][lane]));
+    visible[seen] = queue.values[Queue<V>::voxel][lane];
+    seen += is_visible ? 1 : 0;
+  }
+  return seen;
+}
+
 template <class V>
 std::size_t splat_batches(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
                           std::size_t count, std::uint32_t* visible) {
-  using Int = typename V::Int;
   constexpr std::size_t lanes = V::lanes;
-  Stamp<V> stamp;
-  alignas(64) std::uint32_t places[lanes];
-  alignas(64) std::uint32_t rows[lanes];
+  Queue<V> queue;
   std::uint32_t last_batch[lanes] = {};
   std::size_t seen = 0;
   for (std::size_t begin = 0; begin < count; begin += lanes) {
@@ -149,27 +198,17 @@ std::size_t splat_batches(const BatchView& view, const BatchRegion& region, cons
       __builtin_memcpy(last_batch, batch, used * sizeof *batch);
       batch = last_batch;
     }
-    const Place<V> place = place_of<V>(view, V::load(batch));
-    const Window<V> window = window_of<V>(view, place);
-    unsigned active = ~V::lane_bits(window.outside) & ((2U << (used - 1)) - 1);
-    if (active != 0) active &= ~hidden_lanes<V>(view, window);
-    if (active == 0) continue;
-    Borders<V> borders = borders_of<V>(view, region, place, window);
-    const Int is_drawn = ~(window.outside | window.special | borders.special);
-    const Int doubtful = draw<V>(view, borders, V::largest(window.rows & is_drawn), stamp);
-    const unsigned special = V::lane_bits(~is_drawn | doubtful);
-    V::store(places, places_of<V>(view, window));
-    V::store(rows, window.rows);
-    for (; active != 0; active &= active - 1) {
-      const int lane = __builtin_ctz(active);
-      const bool is_visible = (special >> lane & 1U) != 0
-                                  ? view.splat_one(view.context, batch[lane])
-                                  : press<V>(view, stamp, lane, static_cast<std::int32_t>(places[lane]),
-                                             static_cast<std::int32_t>(rows[lane]));
-      visible[seen] = batch[lane];
-      seen += is_visible ? 1 : 0;
-    }
+    const typename V::Int packed = V::load(batch);
+    const Window<V> window = window_of<V>(view, place_of<V>(view, packed));
+    unsigned open = ~V::lane_bits(window.outside) & ((2U << (used - 1)) - 1);
+    if (open != 0) open &= ~hidden_lanes<V>(view, window);
+    if (open == 0) continue;
+    queue.push(packed, window, open);
+    if (queue.count < lanes) continue;
+    seen += splat_front<V>(view, region, queue, visible + seen);
+    queue.drop_front();
   }
+  if (queue.count > 0) seen += splat_front<V>(view, region, queue, visible + seen);
   return seen;
 }
 

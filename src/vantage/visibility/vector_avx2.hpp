@@ -49,10 +49,10 @@ struct VectorAvx2 {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(__m256i(mask))));
   }
   static void store_lanes(std::uint32_t* to, Int x, unsigned bits) {
-    for (int i = 0; i < lanes; ++i) {
-      *to = static_cast<std::uint32_t>(x[i]);
-      to += bits >> i & 1U;
-    }
+    // The numbers of the lanes, as bytes: first one byte of ones for each bit, then those bytes moved together.
+    const std::uint64_t bytes = _pdep_u64(bits, 0x0101010101010101U) * 0xffU;
+    const __m128i order = _mm_cvtsi64_si128(static_cast<long long>(_pext_u64(0x0706050403020100U, bytes)));
+    store(to, Int(_mm256_permutevar8x32_epi32(__m256i(x), _mm256_cvtepu8_epi32(order))));
   }
   static void store_words(std::uint64_t* to, Int low, Int high) {
     auto* at = reinterpret_cast<__m256i*>(to);
