@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace vantage {
 namespace {
 
@@ -17,6 +19,21 @@ std::string quoted(const std::string& text) {
   std::string result;
   for (const char c : text) result.append(c == '"' ? 2 : 1, c);
   return fmt::format("\"{}\"", result);
+}
+
+/// Mean and covariance of x, y, z, pan, tilt, roll; metres and degrees.
+Json learned_json(const std::optional<PoseError>& error) {
+  if (!error) return nullptr;
+  PoseError::Vector unit;
+  unit << Vec3::Ones(), Vec3::Constant(degrees(1));
+  Json json{{"mean", Json::array()}, {"covariance", Json::array()}};
+  for (int i = 0; i < 6; ++i) {
+    json["mean"].push_back(error->mean[i] * unit[i]);
+    Json row = Json::array();
+    for (int k = 0; k < 6; ++k) row.push_back(error->covariance(i, k) * unit[i] * unit[k]);
+    json["covariance"].push_back(row);
+  }
+  return json;
 }
 
 std::string csv_field(const Json& value) {
@@ -53,6 +70,11 @@ Json scan_json(const ScanRecord& record) {
   json["f_quality"] = planned([](const Evaluation& e) { return e.factors.f_quality; });
   json["f_occlusion"] = planned([](const Evaluation& e) { return e.factors.f_occlusion; });
   json["utility"] = planned([](const Evaluation& e) { return e.utility; });
+  const auto expected = [&record](const auto& value) {
+    return record.planned && record.planned->expected ? Json(value(*record.planned->expected)) : Json(nullptr);
+  };
+  json["expected_utility"] = expected([](const Expectation& e) { return e.utility; });
+  json["overlap_probability"] = expected([](const Expectation& e) { return e.registers; });
   json["occupied"] = record.labels.occupied;
   json["occplane"] = record.labels.occplane;
   json["unmarked"] = record.labels.unmarked;
@@ -64,6 +86,12 @@ Json scan_json(const ScanRecord& record) {
   json["overlap"] = record.overlap;
   json["residual"] = record.residual;
   json["verdict"] = record.verdict;
+  const auto learned = [&record](int first, double unit) {
+    if (!record.learned_error) return Json(nullptr);
+    return Json(std::sqrt(record.learned_error->covariance.diagonal().segment<3>(first).mean()) / unit);
+  };
+  json["learned_sigma"] = learned(0, 1);
+  json["learned_angle"] = learned(3, radians(1));
   json["reason"] = record.reason;
   return json;
 }
@@ -86,6 +114,7 @@ Json summary_json(const ObjectModel& model, const RunSummary& summary) {
   json["completeness_all"] = or_null(summary.completeness_all);
   json["stop_reason"] = summary.stop_reason;
   json["seed"] = summary.seed;
+  json["learned_error"] = model.scans.empty() ? Json(nullptr) : learned_json(model.scans.back().learned_error);
   json["scans"] = Json::array();
   for (const ScanRecord& record : model.scans) json["scans"].push_back(scan_json(record));
   return json;

@@ -23,10 +23,17 @@ std::string rivals(const Plan& plan, double deadline) {
   return concat("best of the ", seen, " of ", plan.feasible, " views seen within ", deadline, " ms");
 }
 
+std::string describe(const Expectation& expected, double utility) {
+  return concat("; with the robot's error its utility of ", std::round(1000 * utility) / 1000, " is expected to be ",
+                std::round(1000 * expected.utility) / 1000, ", and the scan to overlap enough to be registered with ",
+                "probability ", std::round(100 * expected.registers), " % (", expected.samples, " poses)");
+}
+
 std::string explain(const Evaluation& best, const std::string& rivals, double angle) {
   return concat(rivals, ": meets ", best.seen.occplane, " occplane voxels (", per_cent(best.factors.x_op),
                 " % of what it sees), overlaps with ", best.seen.occupied, " occupied ones (",
-                per_cent(best.factors.x_oc), " %), ", std::round(degrees(angle)), " degrees from here");
+                per_cent(best.factors.x_oc), " %), ", std::round(degrees(angle)), " degrees from here",
+                best.expected ? describe(*best.expected, best.utility) : "");
 }
 
 }  // namespace
@@ -42,15 +49,15 @@ void PlannerOptions::validate() const {
   require(deadline == 0 || search == SearchKind::exhaustive, "deadline = ", deadline,
           " ms: needs the exhaustive search, because multi-resolution has no result before its last stage; leave one "
           "of them out");
-  require(deadline == 0 || !expected_error, "deadline = ", deadline,
-          " ms: convolution after evaluation needs the utility of every view; leave one of them out");
+  require(deadline == 0 || !believed_error, "deadline = ", deadline,
+          " ms: planning with the robot's error (convolve) needs the utility of every view; leave one of them out");
   (void)utility_by_name(utility);
   convolution.validate();
-  if (!expected_error) return;
-  expected_error->validate();
+  expectation.validate();
+  if (!believed_error || error_method != ErrorMethod::convolution) return;
   require(search == SearchKind::exhaustive,
           "convolution after evaluation needs the utility of every view: use it with the exhaustive search, "
-          "not with multi-resolution, which evaluates only some views to the end");
+          "not with multi-resolution, which evaluates only some views to the end; sampled poses go with both");
 }
 
 std::vector<std::string> utility_names() { return {"combined", "gua"}; }
@@ -105,12 +112,22 @@ std::vector<Evaluation> Planner::search(const ViewEvaluation& problem, const std
   return exhaustive_search(problem, feasible, {RayChoice::Kind::ideal, {}});
 }
 
-void Planner::expect_errors(std::vector<Evaluation>& evaluations, const PositioningError& error) const {
-  std::vector<double> utilities(candidates_.views.size(), 0.0);
-  for (const Evaluation& each : evaluations) utilities[static_cast<std::size_t>(each.candidate)] = each.utility;
-  const std::vector<double> expected = convolve(utilities, candidates_, error, options_.convolution);
-  for (Evaluation& each : evaluations) each.score = expected[static_cast<std::size_t>(each.candidate)];
-  rank(evaluations);
+void Planner::expect_errors(Plan& plan, const ViewEvaluation& problem, const VoxelMap& map) const {
+  const ErringRobot robot{*options_.believed_error, map, options_.reach};
+  // Where every view has been evaluated, the convolution also finds the strongest ones that are worth sampling.
+  if (options_.search == SearchKind::exhaustive) {
+    plan.ranking = rank_by_convolution(problem, std::move(plan.ranking), robot.error, options_.convolution);
+  }
+  if (options_.error_method == ErrorMethod::samples) {
+    plan.ranking = rank_by_samples(problem, std::move(plan.ranking), robot, options_.expectation);
+  } else {
+    plan.ranking.front().expected =
+        rank_by_samples(problem, {plan.ranking.front()}, robot, options_.expectation).front().expected;
+  }
+}
+
+void Planner::believe(const PoseError& error) {
+  if (options_.believed_error) options_.believed_error = std::make_shared<ConstantError>(error);
 }
 
 std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& current) {
@@ -146,7 +163,7 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
                         : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
     return std::nullopt;
   }
-  if (options_.expected_error) expect_errors(plan.ranking, *options_.expected_error);
+  if (options_.believed_error) expect_errors(plan, problem, map);
   plan.best = plan.ranking.front();
   plan.explanation = explain(plan.best, rivals(plan, options_.deadline),
                              angle_seen_from(candidates_.center, current.position(), plan.best.view.position()));

@@ -2,17 +2,24 @@
 
 #include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "vantage/robot/reach.hpp"
-#include "vantage/search/convolution.hpp"
+#include "vantage/search/expected_utility.hpp"
 #include "vantage/search/search.hpp"
 
 namespace vantage {
 
 enum class SearchKind { exhaustive, multi_resolution };
+
+/// How a plan allows for the robot's error (docs/positioning-error.md).
+enum class ErrorMethod {
+  convolution,  // section 7, position alone; needs the exhaustive search, which alone evaluates every view
+  samples       // looks from sampled poses around the strongest views, position and orientation
+};
 
 struct PlannerOptions {
   SearchKind search = SearchKind::exhaustive;
@@ -21,13 +28,14 @@ struct PlannerOptions {
   std::string utility = "combined";  // see utility_by_name
   UtilityOptions factors;
   ReachOptions reach;
-  /// The error that convolution after evaluation expects of the robot (section 7); without it views are ranked as if
-  /// the robot were perfect. Needs the exhaustive search, which alone evaluates every view.
-  std::optional<PositioningError> expected_error;
+  /// How the robot errs as far as the planner knows; without it views are ranked as if the robot were perfect.
+  std::shared_ptr<const PoseErrorModel> believed_error;
+  ErrorMethod error_method = ErrorMethod::convolution;
   ConvolutionOptions convolution;
+  ExpectationOptions expectation;
   int stop_occplane = 0;  // stop when no feasible view sees more occplane voxels than this
   /// Milliseconds after which a plan is made of the views evaluated until then (search_until); 0: evaluate all. Needs
-  /// the exhaustive search without convolution. What is planned then depends on the clock.
+  /// the exhaustive search without the robot's error. What is planned then depends on the clock.
   double deadline = 0;
 
   void validate() const;
@@ -59,6 +67,8 @@ class Planner {
   /// This candidate's scan could not be used: it is not planned again until the map changes.
   void set_aside(int candidate, const std::string& reason);
   void map_changed() { set_aside_.clear(); }
+  /// From now on the robot is believed to err like this. Nothing changes where errors are not planned for.
+  void believe(const PoseError& error);
 
   [[nodiscard]] const std::string& why_finished() const { return why_finished_; }
   [[nodiscard]] const Candidates& candidates() const { return candidates_; }
@@ -71,7 +81,7 @@ class Planner {
   [[nodiscard]] std::optional<std::string> why_excluded(const VoxelMap& map, int candidate) const;
   [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible,
                                                std::chrono::steady_clock::time_point start) const;
-  void expect_errors(std::vector<Evaluation>& evaluations, const PositioningError& error) const;
+  void expect_errors(Plan& plan, const ViewEvaluation& problem, const VoxelMap& map) const;
 
   Candidates candidates_;
   RangeCamera camera_;

@@ -132,7 +132,8 @@ TEST(Planner, SaysWhyNoViewIsFeasible) {
 
 TEST(Planner, RanksByTheUtilityExpectedUnderPositioningError) {
   PlannerOptions options;
-  options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.4));
+  const PositioningError error = PositioningError::from_deviations(Vec3::Constant(0.4));
+  options.believed_error = std::make_shared<ConstantError>(error);
   Planner planner(view_cube(5, Vec3::Constant(4), 1.2, 3, Vec3::Zero()), camera, options);
   const VoxelMap map(small_scene());
   VoxelMap half = map_with_hidden_voxel({20, 20, 20});
@@ -141,7 +142,7 @@ TEST(Planner, RanksByTheUtilityExpectedUnderPositioningError) {
   ASSERT_TRUE(plan);
   std::vector<double> utilities(planner.candidates().views.size(), 0.0);
   for (const Evaluation& each : plan->ranking) utilities[static_cast<std::size_t>(each.candidate)] = each.utility;
-  const std::vector<double> expected = convolve(utilities, planner.candidates(), *options.expected_error);
+  const std::vector<double> expected = convolve(utilities, planner.candidates(), error);
   double best_utility = 0;
   for (const Evaluation& each : plan->ranking) {
     EXPECT_EQ(each.score, expected[static_cast<std::size_t>(each.candidate)]);
@@ -149,11 +150,42 @@ TEST(Planner, RanksByTheUtilityExpectedUnderPositioningError) {
     best_utility = std::max(best_utility, each.utility);
   }
   EXPECT_GT(best_utility, 0);
+  ASSERT_TRUE(plan->best.expected);
+  EXPECT_NE(plan->explanation.find("overlap enough to be registered with probability"), std::string::npos)
+      << plan->explanation;
+}
+
+TEST(Planner, RanksTheStrongestViewsByWhatIsSeenFromSampledPoses) {
+  VoxelMap half = map_with_hidden_voxel({20, 20, 20});
+  half.add_point({21, 20, 20}, Vec3::UnitX(), 1);
+  for (const SearchKind search : {SearchKind::exhaustive, SearchKind::multi_resolution}) {
+    PlannerOptions options;
+    options.search = search;
+    options.believed_error =
+        std::make_shared<ConstantError>(PoseError::from_deviations(Vec3::Constant(0.3), Vec3::Constant(radians(5))));
+    options.error_method = ErrorMethod::samples;
+    options.expectation.candidates = 5;
+    Planner planner(view_sphere(20, 2, Vec3::Zero()), camera, options);
+    const auto plan = planner.next_best_view(half, planner.candidates().views[0]);
+    ASSERT_TRUE(plan);
+    ASSERT_EQ(plan->ranking.size(), 5U) << "views that were evaluated to the end";
+    for (const Evaluation& each : plan->ranking) {
+      ASSERT_TRUE(each.expected);
+      EXPECT_EQ(each.expected->samples, 32);
+      EXPECT_EQ(each.score, each.expected->utility);
+      EXPECT_LE(each.score, plan->best.score);
+    }
+    // Told that the robot does not err, it goes by the utility.
+    planner.believe({});
+    EXPECT_EQ(planner.next_best_view(half, planner.candidates().views[0])->best.score,
+              planner.next_best_view(half, planner.candidates().views[0])->best.utility);
+  }
 }
 
 TEST(Planner, RefusesToConvolveWhatMultiResolutionLeavesOut) {
   PlannerOptions options;
-  options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.1));
+  options.believed_error =
+      std::make_shared<ConstantError>(PositioningError::from_deviations(Vec3::Constant(0.1)));
   options.search = SearchKind::multi_resolution;
   EXPECT_THROW(Planner(view_sphere(20, 2, Vec3::Zero()), camera, options), InputError);
 }

@@ -114,12 +114,11 @@ void ReconstructOptions::validate() const {
   require(!size || (*size > 0 && std::isfinite(*size)), "size = ", size.value_or(0), " m: must be positive");
   require((depth_noise.array() >= 0).all() && depth_noise.allFinite(), "depth-noise = ", depth_noise.transpose(),
           ": must not be negative");
-  require((positioning_error.array() >= 0).all() && positioning_error.allFinite(),
-          "positioning-error = ", positioning_error.transpose(), " m: standard deviations must not be negative");
-  require_one_of("convolve", convolve, {"off", "on", "normalised"});
+  require_one_of("convolve", convolve, {"off", "on", "normalised", "samples"});
   require_one_of("quality", quality, {"axis", "ray"});
   require_one_of("search", search, {"exhaustive", "multi-resolution"});
   require_one_of("registration", registration, {"truth", "none", "icp"});
+  validate_errors(registration, center);
   require(initial_view >= 0, "initial-view = ", initial_view, ": must not be negative");
   scene_options().validate();
   range_camera().validate();
@@ -152,9 +151,11 @@ PlannerOptions ReconstructOptions::planner_options() const {
   }
   if (obstacles) result.reach.obstacles = boxes_from_text("obstacles", *obstacles);
   if (convolve != "off") {
-    result.expected_error = PositioningError::from_deviations(believed_error.value_or(positioning_error));
+    result.believed_error = believed_error_model(center);
+    result.error_method = convolve == "samples" ? ErrorMethod::samples : ErrorMethod::convolution;
     result.convolution.normalise = convolve == "normalised";
   }
+  result.expectation = {error_candidates, error_samples, least_overlap};
   result.stop_occplane = stop_occplane;
   result.deadline = deadline;
   return result;
@@ -173,7 +174,7 @@ QualityReference ReconstructOptions::quality_reference() const {
 }
 
 SimulatedRobotOptions ReconstructOptions::robot_options() const {
-  return {.error = PositioningError::from_deviations(positioning_error),
+  return {.error = robot_error(center),
           .first_pose_exact = registration == "icp",
           .depth_noise = {.a = depth_noise.x(), .b = depth_noise.y()}};
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "vantage/planning/planner.hpp"
+#include "vantage/reconstruction/error_options.hpp"
 #include "vantage/reconstruction/reconstruction.hpp"
 #include "vantage/simulation/simulated_robot.hpp"
 
@@ -11,7 +12,7 @@ namespace vantage {
 
 /// All that decides a simulated reconstruction; together with the object it can be repeated bit for bit. Texts and
 /// units are those of the command line and of config.yaml: metres, degrees.
-struct ReconstructOptions {
+struct ReconstructOptions : ErrorOptions {
   std::optional<double> size;
   std::uint64_t seed = 1;
   int initial_view = 0;
@@ -44,9 +45,6 @@ struct ReconstructOptions {
   double rho = 0.2;
   bool navigation = true;
 
-  Vec3 positioning_error = Vec3::Zero();
-  std::optional<Vec3> believed_error;
-  std::string convolve = "off";
   std::string registration = "truth";
 
   int max_views = 40;
@@ -100,10 +98,7 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("alpha-op", o.alpha_op, "", "desired share of occplane voxels, eq. 7");
   field("rho", o.rho, "", "navigation factor of the farthest view, eq. 10");
   field("navigation", o.navigation, "", "use the navigation factor");
-  field("positioning-error", o.positioning_error, "m", "standard deviation of the robot's position per axis");
-  field("believed-error", o.believed_error, "m",
-        "standard deviation that the planner assumes; that of the robot if not given");
-  field("convolve", o.convolve, "", "convolution after evaluation with the believed error: off, on or normalised");
+  describe(static_cast<ErrorOptions&>(o), field);
   field("registration", o.registration, "", "pose of a scan: truth, none (the believed one) or icp");
   field("max-views", o.max_views, "", "stop after this many scans");
   field("max-distance", o.max_distance, "m", "stop when this much has been travelled");

@@ -84,8 +84,19 @@ void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, 
   } else {
     planner_.set_aside(candidate, concat("its scan could not be registered: ", record.verdict));
   }
+  learn_from(record);
   on_scan(record, scan, model, plan);
   model.scans.push_back(std::move(record));
+}
+
+void Reconstruction::learn_from(ScanRecord& record) {
+  if (!learner) return;
+  // The first scan defines the frame that the others are registered in: it tells nothing of the robot's error.
+  if (record.merged && record.scan > 0) {
+    learner->add(record.commanded, record.registered);
+    planner_.believe(learner->prediction());
+  }
+  record.learned_error = learner->estimate();
 }
 
 std::string Reconstruction::why_stop(const ObjectModel& model, double seconds) const {

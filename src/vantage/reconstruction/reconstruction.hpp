@@ -7,6 +7,7 @@
 #include "vantage/reconstruction/registrar.hpp"
 #include "vantage/reconstruction/scan.hpp"
 #include "vantage/reconstruction/scan_record.hpp"
+#include "vantage/robot/error_learner.hpp"
 #include "vantage/robot/robot.hpp"
 
 namespace vantage {
@@ -45,6 +46,8 @@ class Reconstruction {
 
   Budget budget;
   QualityReference quality = QualityReference::axis;
+  /// Learns how the robot errs from every merged scan and tells the planner; none by default.
+  std::optional<ErrorLearner> learner;
   /// Called with each finished record before it is added to the model; may add what only the caller knows (coverage).
   std::function<void(ScanRecord&, const Scan&, const ObjectModel&, const Plan*)> on_scan =
       [](ScanRecord&, const Scan&, const ObjectModel&, const Plan*) {};
@@ -60,6 +63,7 @@ class Reconstruction {
 
  private:
   void scan_and_update(ObjectModel& model, const View& commanded, const Plan* plan, int candidate, double plan_seconds);
+  void learn_from(ScanRecord& record);
   [[nodiscard]] std::string why_stop(const ObjectModel& model, double seconds) const;
 
   Robot& robot_;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "vantage/robot/pose_error.hpp"
 #include "vantage/search/search.hpp"
 
 namespace vantage {
@@ -41,6 +42,8 @@ struct ScanRecord {
   double overlap = 1;   // share of the scan that lies on the model, as registration saw it
   double residual = 0;  // metres
   std::string verdict;
+  /// How the robot errs as far as it has been learned up to this scan; nothing where it is not learned.
+  std::optional<PoseError> learned_error;
   ScanTimings timings;
 };
 

@@ -1,5 +1,8 @@
 #include "vantage/reconstruction/simulate.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -11,12 +14,26 @@ TriangleMesh placed(const TriangleMesh& mesh, double size, const Vec3& center) {
   return object;
 }
 
+/// What registration has to search through where the sensor may be turned too: the surface then lies off by the angle
+/// times its distance.
+RegistrationOptions registration_options(const ReconstructOptions& options, const View& typical) {
+  RegistrationOptions result;
+  const PoseError error = options.robot_error(options.center)->of_move(typical, typical);
+  if (error.keeps_orientation()) return result;
+  const PoseError::Vector deviations = error.covariance.diagonal().cwiseSqrt() + error.mean.cwiseAbs();
+  const double angle = deviations.tail<3>().maxCoeff();
+  const double distance = (typical.position() - options.center).norm();
+  result.orientation_error = std::max(result.orientation_error, angle);
+  result.search_radius = 3 * std::hypot(deviations.head<3>().maxCoeff(), angle * distance);
+  return result;
+}
+
 std::unique_ptr<Registrar> make_registrar(const ReconstructOptions& options, const SimulatedRobot& robot) {
   if (options.registration == "truth") {
     return std::make_unique<TruthRegistrar>([&robot] { return robot.true_view(); });
   }
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
-  return std::make_unique<IcpRegistrar>();
+  return std::make_unique<IcpRegistrar>(registration_options(options, options.candidate_views().views.front()));
 }
 
 }  // namespace
@@ -40,6 +57,7 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   Reconstruction loop(robot, planner, *registrar);
   loop.budget = options.budget();
   loop.quality = options.quality_reference();
+  if (options.learns_error()) loop.learner.emplace();
   loop.interrupted = observer.interrupted;
   loop.on_plan = observer.on_plan;
   loop.on_scan = [&](ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {

@@ -12,7 +12,9 @@
 namespace vantage {
 namespace {
 
-constexpr double support_sigmas = 4;  // of the kernel on candidate sets that are no grid
+constexpr double support_sigmas = 4;         // of the kernel on candidate sets that are no grid
+constexpr double support_on_grid = 6;        // of kernels that differ from cell to cell, per axis
+constexpr double off_grid_tolerance = 1e-9;  // metres: candidates that count as the same place
 
 /// Values on the n^3 cells of a view cube, x fastest; 0 where there is no candidate.
 struct DenseGrid {
@@ -131,25 +133,55 @@ std::vector<double> convolve_directly(std::span<const double> utilities, const C
   return result;
 }
 
+/// The mean over the neighbours of candidate v within the kernel's support.
+double mean_of_neighbours(std::size_t v, std::span<const double> utilities, const Candidates& candidates,
+                          const ErrorDensity& density) {
+  double sum = 0;
+  double weights = 0;
+  for (std::size_t u = 0; u < utilities.size(); ++u) {
+    const Vec3 offset = candidates.views[u].position() - candidates.views[v].position();
+    const double distance = density.squared_distance(offset);
+    if (distance > support_sigmas * support_sigmas) continue;
+    const double weight = std::exp(-0.5 * distance);
+    sum += weight * utilities[u];
+    weights += weight;
+  }
+  // No candidate where the robot would end up: nothing but the view itself tells what to expect.
+  return weights > 0 ? sum / weights : utilities[v];
+}
+
 std::vector<double> convolve_neighbours(std::span<const double> utilities, const Candidates& candidates,
                                         const PositioningError& error) {
-  const ErrorDensity density(error, Vec3::Constant(1e-9));
+  const ErrorDensity density(error, Vec3::Constant(off_grid_tolerance));
   std::vector<double> result(utilities.size());
-  parallel_for(utilities.size(), [&](std::size_t v) {
-    double sum = 0;
-    double weights = 0;
-    for (std::size_t u = 0; u < utilities.size(); ++u) {
-      const Vec3 offset = candidates.views[u].position() - candidates.views[v].position();
-      const double distance = density.squared_distance(offset);
-      if (distance > support_sigmas * support_sigmas) continue;
-      const double weight = std::exp(-0.5 * distance);
-      sum += weight * utilities[u];
-      weights += weight;
-    }
-    // No candidate where the robot would end up: nothing but the view itself tells what to expect.
-    result[v] = weights > 0 ? sum / weights : utilities[v];
-  });
+  parallel_for(utilities.size(),
+               [&](std::size_t v) { result[v] = mean_of_neighbours(v, utilities, candidates, density); });
   return result;
+}
+
+/// Eq. 20 around one cell, divided by the sum of the whole kernel, in which cells without a candidate count too.
+double mean_around(const Index3& cell, const DenseGrid& dense, const CandidateGrid& grid, const PositioningError& error,
+                   const ConvolutionOptions& options) {
+  const ErrorDensity density(error, 0.5 * grid.spacing);
+  const Vec3 reach = error.mean.cwiseAbs() + support_on_grid * error.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  const Index3 width = (reach.array() / grid.spacing.array()).ceil().cast<int>().max(1);
+  double sum = 0;
+  double weights = 0;
+  for (int z = -width.z(); z <= width.z(); ++z) {
+    for (int y = -width.y(); y <= width.y(); ++y) {
+      for (int x = -width.x(); x <= width.x(); ++x) {
+        const Index3 m(x, y, z);
+        const double distance = density.squared_distance(m.cast<double>().cwiseProduct(grid.spacing));
+        if (options.truncate_sigmas && distance > *options.truncate_sigmas * *options.truncate_sigmas) continue;
+        const double weight = std::exp(-0.5 * distance);
+        weights += weight;
+        const Index3 there = cell + m;
+        if ((there.array() < 0).any() || (there.array() >= dense.n).any()) continue;
+        sum += weight * dense.values[dense.at(there.x(), there.y(), there.z())];
+      }
+    }
+  }
+  return weights > 0 ? sum / weights : 0;
 }
 
 }  // namespace
@@ -195,6 +227,31 @@ std::vector<double> convolve(std::span<const double> utilities, const Candidates
   if (!candidates.grid) return convolve_neighbours(utilities, candidates, error);
   if (error.is_diagonal()) return convolve_separably(utilities, *candidates.grid, error, options);
   return convolve_directly(utilities, *candidates.grid, error, options);
+}
+
+std::vector<double> convolve_each(std::span<const double> utilities, const Candidates& candidates,
+                                  std::span<const PositioningError> error_of_candidate,
+                                  const ConvolutionOptions& options) {
+  options.validate();
+  require(utilities.size() == candidates.views.size() && error_of_candidate.size() == candidates.views.size(),
+          "convolution: ", utilities.size(), " utilities and ", error_of_candidate.size(), " errors for ",
+          candidates.views.size(), " candidates");
+  for (const PositioningError& error : error_of_candidate) error.validate();
+  const std::optional<DenseGrid> dense =
+      candidates.grid ? std::optional(spread(utilities, *candidates.grid)) : std::nullopt;
+  std::vector<double> result(utilities.size());
+  parallel_for(utilities.size(), [&](std::size_t v) {
+    const PositioningError& error = error_of_candidate[v];
+    if (error.is_zero()) {
+      result[v] = utilities[v];
+    } else if (dense) {
+      result[v] = mean_around(candidates.grid->cell_of_view[v], *dense, *candidates.grid, error, options);
+    } else {
+      result[v] = mean_of_neighbours(v, utilities, candidates,
+                                     ErrorDensity(error, Vec3::Constant(off_grid_tolerance)));
+    }
+  });
+  return result;
 }
 
 }  // namespace vantage

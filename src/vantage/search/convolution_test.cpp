@@ -144,6 +144,40 @@ TEST(Convolution, OffTheGridAveragesOverTheNeighbours) {
   EXPECT_GT(left_out, 1000);
 }
 
+TEST(Convolution, WithAnErrorPerCandidateIsTheNormalisedOneWhereTheyAreAlike) {
+  Random random(12);
+  for (const bool grid : {true, false}) {
+    const Candidates candidates =
+        grid ? view_cube(7, Vec3(4, 3, 5), 0.3, 10, Vec3::Zero()) : view_sphere(80, 2, Vec3::Zero());
+    PositioningError error;
+    Mat3 root;
+    for (int a = 0; a < 3; ++a) root.col(a) = 0.15 * random.normal3();
+    error.covariance = root * root.transpose() + 0.02 * Mat3::Identity();
+    error.mean = {0.05, -0.1, 0};
+    const std::vector<double> g = random_utilities(candidates.views.size(), random);
+    ConvolutionOptions options;
+    options.normalise = true;
+    const std::vector<PositioningError> errors(g.size(), error);
+    const std::vector<double> ours = convolve_each(g, candidates, errors, options);
+    const std::vector<double> expected = convolve(g, candidates, error, options);
+    for (std::size_t i = 0; i < g.size(); ++i) EXPECT_NEAR(ours[i], expected[i], 1e-6) << i;
+  }
+}
+
+TEST(Convolution, TrustsACandidateWhereTheRobotIsGood) {
+  const Candidates cube = view_cube(5, Vec3::Constant(5), 0.5, 10, Vec3::Zero());
+  Random random(13);
+  const std::vector<double> g = random_utilities(cube.views.size(), random);
+  std::vector<PositioningError> errors(g.size(), PositioningError::from_deviations(Vec3::Constant(1)));
+  errors[3] = {};
+  const std::vector<double> result = convolve_each(g, cube, errors);
+  EXPECT_EQ(result[3], g[3]);
+  int changed = 0;
+  for (std::size_t i = 0; i < g.size(); ++i) changed += std::abs(result[i] - g[i]) > 1e-3 ? 1 : 0;
+  EXPECT_GT(changed, 100);
+  EXPECT_THROW((void)convolve_each(g, cube, std::vector<PositioningError>(3)), InputError);
+}
+
 TEST(Convolution, WithoutErrorChangesNothing) {
   const Candidates sphere = view_sphere(20, 2, Vec3::Zero());
   Random random(2);

@@ -25,6 +25,13 @@ struct RayChoice {
   void validate() const;
 };
 
+/// What a view is worth to a robot that errs.
+struct Expectation {
+  double utility = 0;    // mean over the poses that the move may end at
+  double registers = 0;  // probability that the scan overlaps enough with what is known to be registered
+  int samples = 0;       // poses
+};
+
 /// One candidate view with all that was found out about it.
 struct Evaluation {
   int candidate = -1;
@@ -36,6 +43,7 @@ struct Evaluation {
   Factors factors;
   double utility = 0;
   double score = 0;  // what the ranking goes by: the utility, or the one expected under positioning error
+  std::optional<Expectation> expected;  // where poses around the view were sampled
 
   [[nodiscard]] bool evaluated() const { return resolution.rays() > 0; }
 };

@@ -1,7 +1,5 @@
 #include "vantage/simulation/simulated_robot.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -13,32 +11,17 @@ constexpr int most_draws = 1000;
 Random error_stream(std::uint64_t seed, std::uint64_t move) { return Random(seed, 2 * move); }
 Random noise_stream(std::uint64_t seed, std::uint64_t move) { return Random(seed, 2 * move + 1); }
 
-/// A matrix whose product with its transpose is the covariance; diagonal where the covariance is, so that each axis
-/// keeps its own random numbers.
-Mat3 root_of(const PositioningError& error) {
-  if (error.is_diagonal()) return Vec3(error.covariance.diagonal().cwiseSqrt()).asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(error.covariance);
-  // Rounding may leave eigenvalues a little below zero where the covariance is singular.
-  return axes.eigenvectors() * Vec3(axes.eigenvalues().cwiseMax(0).cwiseSqrt()).asDiagonal();
-}
-
 }  // namespace
 
-PositioningErrorModel::PositioningErrorModel(const PositioningError& error) : mean_(error.mean) {
+View perturbed(const View& commanded, const PoseError& error, Random& random) {
   error.validate();
-  root_ = root_of(error);
+  Eigen::Matrix<double, 6, 1> normal = Eigen::Matrix<double, 6, 1>::Zero();
+  normal.head<3>() = random.normal3();
+  if (!error.keeps_orientation()) normal.tail<3>() = random.normal3();
+  return displaced(commanded, error.mean + root_of(error.covariance) * normal);
 }
 
-View PositioningErrorModel::perturb(const View& commanded, Random& random) const {
-  View reached = commanded;
-  reached.world_from_sensor.translation() += mean_ + root_ * random.normal3();
-  return reached;
-}
-
-void SimulatedRobotOptions::validate() const {
-  error.validate();
-  depth_noise.validate();
-}
+void SimulatedRobotOptions::validate() const { depth_noise.validate(); }
 
 SimulatedRobot::SimulatedRobot(const RangeScanner& scanner, const RangeCamera& camera,
                                const SimulatedRobotOptions& options, std::uint64_t seed,
@@ -46,7 +29,6 @@ SimulatedRobot::SimulatedRobot(const RangeScanner& scanner, const RangeCamera& c
     : scanner_(scanner),
       camera_(camera),
       options_(options),
-      error_(options.error),
       seed_(seed),
       can_be_at_(std::move(can_be_at)) {
   camera_.validate();
@@ -56,14 +38,16 @@ SimulatedRobot::SimulatedRobot(const RangeScanner& scanner, const RangeCamera& c
 bool SimulatedRobot::move_to(const View& view) {
   if (!can_be_at_(view)) return false;
   const std::uint64_t move = moves_ + 1;
-  const bool is_exact = options_.error.is_zero() || (options_.first_pose_exact && move == 1);
   View reached = view;
-  if (!is_exact) {
+  const bool is_exact = !options_.error || (options_.first_pose_exact && move == 1);
+  // The way to the first pose is not known: it counts as none.
+  const PoseError error = is_exact ? PoseError() : options_.error->of_move(moves_ > 0 ? believed_ : view, view);
+  if (!error.is_zero()) {
     Random random = error_stream(seed_, move);
     int draws = 0;
     do {
       if (++draws > most_draws) return false;
-      reached = error_.perturb(view, random);
+      reached = perturbed(view, error, random);
     } while (!can_be_at_(reached));
   }
   moves_ = move;

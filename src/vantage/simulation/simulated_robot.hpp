@@ -2,38 +2,30 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "vantage/core/random.hpp"
-#include "vantage/robot/positioning_error.hpp"
+#include "vantage/robot/error_model.hpp"
 #include "vantage/robot/robot.hpp"
 #include "vantage/simulation/depth_noise.hpp"
 #include "vantage/simulation/range_scanner.hpp"
 
 namespace vantage {
 
-/// Draws where a robot ends up: the commanded position plus N(mean, covariance), the commanded orientation.
-class PositioningErrorModel {
- public:
-  /// Throws InputError as PositioningError::validate does.
-  explicit PositioningErrorModel(const PositioningError& error);
-
-  [[nodiscard]] View perturb(const View& commanded, Random& random) const;
-
- private:
-  Vec3 mean_;
-  Mat3 root_;  // root * root^T = covariance
-};
+/// Draws where a robot ends up that is sent to `commanded`. The position takes the first three random numbers, so that it
+/// is the same with and without an error of the orientation. Throws InputError as PoseError::validate does.
+[[nodiscard]] View perturbed(const View& commanded, const PoseError& error, Random& random);
 
 struct SimulatedRobotOptions {
-  PositioningError error = {};    // of every move
+  std::shared_ptr<const PoseErrorModel> error = {};  // of each move; none: the robot is exact
   bool first_pose_exact = false;  // the first move ends where it was commanded (spec, section 6: with ICP)
   DepthNoise depth_noise = {};    // of every range image
 
   void validate() const;
 };
 
-/// A free flyer with a range camera in front of a mesh. It ends up at the commanded position plus a random error, keeps
-/// the commanded orientation, and believes to be where it was sent (spec, section 6). The error and the noise of the
+/// A robot with a range camera in front of a mesh. It ends up at the commanded pose plus a random error and believes to be
+/// where it was sent (spec, section 6). The error and the noise of the
 /// n-th move depend on the seed and n alone, so that runs with other plans meet the same errors.
 class SimulatedRobot : public Robot {
  public:
@@ -53,7 +45,6 @@ class SimulatedRobot : public Robot {
   const RangeScanner& scanner_;
   RangeCamera camera_;
   SimulatedRobotOptions options_;
-  PositioningErrorModel error_;
   std::uint64_t seed_;
   std::function<bool(const View&)> can_be_at_;
   std::uint64_t moves_ = 0;
