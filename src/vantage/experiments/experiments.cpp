@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
+#include "vantage/experiments/error_experiments.hpp"
 #include "vantage/experiments/tables.hpp"
 #include "vantage/io/options.hpp"
 
@@ -16,9 +17,15 @@ struct Named {
   Maker make;
 };
 
-constexpr Named makers[] = {{"table1", exhaustive_table},        {"table2", multi_resolution_table},
-                            {"table4", navigation_table},        {"figure9", gua_figure},
-                            {"figure10", simple_objects_figure}, {"figure11", logo_figure}};
+constexpr Named makers[] = {{"table1", exhaustive_table},
+                            {"table2", multi_resolution_table},
+                            {"table4", navigation_table},
+                            {"figure9", gua_figure},
+                            {"figure10", simple_objects_figure},
+                            {"figure11", logo_figure},
+                            {"orientation", orientation_experiment},
+                            {"learning", learning_experiment},
+                            {"registration", registration_experiment}};
 
 }  // namespace
 

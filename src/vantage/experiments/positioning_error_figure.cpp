@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "vantage/experiments/free_flyer.hpp"
 #include "vantage/experiments/paper.hpp"
 #include "vantage/experiments/tables.hpp"
 
@@ -10,7 +9,6 @@ namespace {
 
 constexpr double sigma = 0.10;           // metres, per axis
 constexpr std::size_t scans_shown = 18;  // the paper's longest run
-constexpr std::size_t first_compared = 2, last_compared = 10;
 
 struct Method {
   std::string name;
@@ -20,49 +18,17 @@ struct Method {
 const std::array<Method, 3> methods{
     {{"no error", false, false}, {"error", true, false}, {"error, convolved", true, true}}};
 
-/// Section 9 of the paper.
-ReconstructOptions free_flyer(const Method& method) {
-  ReconstructOptions options;
-  options.camera = "92.5x72.32:320x240";
-  options.candidates = "cube:17:4.1:0.82:1.9";
-  options.navigation = false;
-  options.max_views = 30;
+ReconstructOptions options_of(const Method& method) {
+  ReconstructOptions options = free_flyer();
   if (method.errs) options.positioning_error = Vec3::Constant(sigma);
   if (method.convolves) options.convolve = "on";
   return options;
 }
 
-double mean_over_compared_scans(const RunOutcome& outcome) {
-  double sum = 0;
-  for (std::size_t scan = first_compared; scan <= last_compared; ++scan)
-    sum += 100 * after_scan(outcome, "coverage", scan);
-  return sum / (last_compared - first_compared + 1);
-}
-
-double views_to(double coverage, const RunOutcome& outcome) {
-  const std::vector<double>& curve = outcome.list("coverage");
-  const auto reached = std::find_if(curve.begin(), curve.end(), [coverage](double c) { return c >= coverage; });
-  return static_cast<double>(reached - curve.begin()) + 1;
-}
-
-LineSeries curve(const std::string& name, const std::vector<RunOutcome>& outcomes) {
-  LineSeries series;
-  series.name = name;
-  for (std::size_t scan = 1; scan <= scans_shown; ++scan) {
-    const Estimate covered =
-        estimate(each(outcomes, [scan](const RunOutcome& o) { return 100 * after_scan(o, "coverage", scan); }));
-    series.x.push_back(static_cast<double>(scan));
-    series.y.push_back(covered.mean);
-    series.low.push_back(covered.low);
-    series.high.push_back(covered.high);
-  }
-  return series;
-}
-
 ExperimentTable::Row gain_row(const std::string& object, const std::vector<std::vector<RunOutcome>>& runs) {
   std::vector<std::vector<double>> means, views;
   for (const std::vector<RunOutcome>& method : runs) {
-    means.push_back(each(method, mean_over_compared_scans));
+    means.push_back(each(method, mean_coverage));
     views.push_back(each(method, [](const RunOutcome& o) { return views_to(0.99, o); }));
   }
   return {object,
@@ -76,7 +42,8 @@ LineChart coverage_chart(const std::string& title, const std::vector<std::vector
   chart.x.label = "scan";
   chart.x.ticks = PlotAxis::Ticks::whole;
   chart.y.label = "coverage [%]";
-  for (std::size_t k = 0; k < methods.size(); ++k) chart.series.push_back(curve(methods[k].name, runs[k]));
+  for (std::size_t k = 0; k < methods.size(); ++k)
+    chart.series.push_back(curve_over_scans(methods[k].name, runs[k], "coverage", 0.01, scans_shown));
   return chart;
 }
 
@@ -93,8 +60,8 @@ Experiment positioning_error_figure(const std::string& name, const std::vector<s
   ExperimentTable table;
   table.name = name + "-gain";
   table.title = "What convolution gains";
-  table.note =
-      fmt::format("Coverage: mean over scans {} to {}, differences paired by seed.", first_compared, last_compared);
+  table.note = fmt::format("Coverage: mean over scans {} to {}, differences paired by seed.", first_compared_scan,
+                           last_compared_scan);
   table.columns = {{"no error [%]", 2},
                    {"error [%]", 2},
                    {"convolved [%]", 2},
@@ -110,7 +77,7 @@ Experiment positioning_error_figure(const std::string& name, const std::vector<s
     std::vector<RunGroup> groups;
     for (const Method& method : methods) {
       groups.push_back(experiment.add(runs_with_seeds(fmt::format("{}, {}", object_name, method.name), object.object,
-                                                      free_flyer(method), options.seeds)));
+                                                      options_of(method), options.seeds)));
     }
     objects.emplace_back(object, groups);
   }

@@ -70,11 +70,6 @@ Json scan_json(const ScanRecord& record) {
   json["f_quality"] = planned([](const Evaluation& e) { return e.factors.f_quality; });
   json["f_occlusion"] = planned([](const Evaluation& e) { return e.factors.f_occlusion; });
   json["utility"] = planned([](const Evaluation& e) { return e.utility; });
-  const auto expected = [&record](const auto& value) {
-    return record.planned && record.planned->expected ? Json(value(*record.planned->expected)) : Json(nullptr);
-  };
-  json["expected_utility"] = expected([](const Expectation& e) { return e.utility; });
-  json["overlap_probability"] = expected([](const Expectation& e) { return e.registers; });
   json["occupied"] = record.labels.occupied;
   json["occplane"] = record.labels.occplane;
   json["unmarked"] = record.labels.unmarked;
@@ -86,13 +81,18 @@ Json scan_json(const ScanRecord& record) {
   json["overlap"] = record.overlap;
   json["residual"] = record.residual;
   json["verdict"] = record.verdict;
+  json["reason"] = record.reason;
+  const auto expected = [&record](const auto& value) {
+    return record.planned && record.planned->expected ? Json(value(*record.planned->expected)) : Json(nullptr);
+  };
+  json["expected_utility"] = expected([](const Expectation& e) { return e.utility; });
+  json["overlap_probability"] = expected([](const Expectation& e) { return e.registers; });
   const auto learned = [&record](int first, double unit) {
     if (!record.learned_error) return Json(nullptr);
     return Json(std::sqrt(record.learned_error->covariance.diagonal().segment<3>(first).mean()) / unit);
   };
   json["learned_sigma"] = learned(0, 1);
   json["learned_angle"] = learned(3, radians(1));
-  json["reason"] = record.reason;
   return json;
 }
 

@@ -184,8 +184,7 @@ TEST(Planner, RanksTheStrongestViewsByWhatIsSeenFromSampledPoses) {
 
 TEST(Planner, RefusesToConvolveWhatMultiResolutionLeavesOut) {
   PlannerOptions options;
-  options.believed_error =
-      std::make_shared<ConstantError>(PositioningError::from_deviations(Vec3::Constant(0.1)));
+  options.believed_error = std::make_shared<ConstantError>(PositioningError::from_deviations(Vec3::Constant(0.1)));
   options.search = SearchKind::multi_resolution;
   EXPECT_THROW(Planner(view_sphere(20, 2, Vec3::Zero()), camera, options), InputError);
 }

@@ -132,8 +132,10 @@ void ErrorOptions::validate_errors(const std::string& registration, const Vec3& 
   if (convolve != "on" && convolve != "normalised") return;
   const View somewhere = view_towards(center + Vec3(1, 0, 0), center);
   const View elsewhere = view_towards(center + Vec3(0, 1, 0), center);
-  require(learns_error() || turntable_error || believed_error_model(center)->of_move(somewhere, elsewhere).keeps_orientation(),
-          "convolve = ", convolve, ": convolution knows errors of the position alone; with an orientation error use "
+  require(learns_error() || turntable_error ||
+              believed_error_model(center)->of_move(somewhere, elsewhere).keeps_orientation(),
+          "convolve = ", convolve,
+          ": convolution knows errors of the position alone; with an orientation error use "
           "convolve = samples, or believed-orientation-error = 0,0,0 to leave it out");
 }
 

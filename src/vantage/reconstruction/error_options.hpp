@@ -60,9 +60,10 @@ void describe(ErrorOptions& o, Field&& field) {
   field("believed-covariance", o.believed_covariance, "m^2",
         "of the position, as the planner assumes: xx,xy,xz,yy,yz,zz; instead of believed-error");
   field("believed-growth", o.believed_growth, "m/m, degrees/m", "growth of the error that the planner assumes");
-  field("convolve", o.convolve, "",
-        "planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen "
-        "from sampled poses, position and orientation)");
+  field(
+      "convolve", o.convolve, "",
+      "planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen "
+      "from sampled poses, position and orientation)");
   field("error-candidates", o.error_candidates, "", "strongest views that poses are sampled around");
   field("error-samples", o.error_samples, "", "poses around each of them, an even number");
   field("least-overlap", o.least_overlap, "",

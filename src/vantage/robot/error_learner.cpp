@@ -36,9 +36,8 @@ Block posterior(const std::vector<PoseError::Vector>& differences, int first, do
   const Mat3 prior = options.prior_covariance_weight * prior_deviation * prior_deviation * Mat3::Identity();
   Block block;
   block.mean = count / kappa * average;
-  block.covariance =
-      (prior + scatter + options.prior_mean_weight * count / kappa * average * average.transpose()) /
-      (options.prior_covariance_weight + count);
+  block.covariance = (prior + scatter + options.prior_mean_weight * count / kappa * average * average.transpose()) /
+                     (options.prior_covariance_weight + count);
   return block;
 }
 

@@ -24,9 +24,8 @@ PoseError GrowingError::of_move(const View& from, const View& to) const {
 
 TurntableArmError::TurntableArmError(const Deviations& deviations, const Vec3& center)
     : deviations_(deviations), center_(center) {
-  for (const auto& [name, value] : {std::pair{"azimuth", deviations.azimuth},
-                                    {"elevation", deviations.elevation},
-                                    {"reach", deviations.reach}}) {
+  for (const auto& [name, value] :
+       {std::pair{"azimuth", deviations.azimuth}, {"elevation", deviations.elevation}, {"reach", deviations.reach}}) {
     require(value >= 0 && std::isfinite(value), "turntable error: deviation of the ", name, " = ", value,
             ": must not be negative");
   }

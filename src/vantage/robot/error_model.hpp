@@ -32,12 +32,12 @@ class ConstantError : public PoseErrorModel {
   PoseError error_;
 };
 
-/// Grows with the length d of the move: the deviation along each entry is a + b d, as for a gantry that slips or a robot
-/// that adds up its steps. After the scan the pose is known again by registration, so that d is counted anew.
+/// Grows with the length d of the move: the deviation along each entry is a + b d, as for a gantry that slips or a
+/// robot that adds up its steps. After the scan the pose is known again by registration, so that d is counted anew.
 class GrowingError : public PoseErrorModel {
  public:
-  /// `base`: mean and covariance of a move of length 0; its covariance must be diagonal. `deviation_per_metre`: b, in m/m
-  /// and rad/m. Throws InputError otherwise.
+  /// `base`: mean and covariance of a move of length 0; its covariance must be diagonal. `deviation_per_metre`: b, in
+  /// m/m and rad/m. Throws InputError otherwise.
   GrowingError(const PoseError& base, const PoseError::Vector& deviation_per_metre);
   [[nodiscard]] PoseError of_move(const View& from, const View& to) const override;
 

@@ -35,8 +35,7 @@ TEST(ConstantError, IsTheSameForEveryMove) {
 View turned_arm(const View& view, const Vec3& center, double azimuth, double elevation, double reach) {
   const Vec3 arm = view.position() - center;
   const Vec3 axis = Vec3::UnitZ().cross(arm).normalized();
-  const Mat3 turn =
-      (Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::AngleAxisd(elevation, axis)).toRotationMatrix();
+  const Mat3 turn = (Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::AngleAxisd(elevation, axis)).toRotationMatrix();
   View moved;
   moved.world_from_sensor.linear() = turn * view.world_from_sensor.linear();
   moved.world_from_sensor.translation() = center + turn * (arm + reach * arm.normalized());
@@ -52,9 +51,9 @@ TEST(TurntableArmError, IsWhatSmallTurnsOfTheArmDo) {
   for (int i = 0; i < 20; ++i, ++cases) {
     const View view = view_towards(center + 2 * random.unit_vector(), center);
     PoseError::Matrix expected = PoseError::Matrix::Zero();
-    for (const View& moved : {turned_arm(view, center, deviations.azimuth, 0, 0),
-                              turned_arm(view, center, 0, deviations.elevation, 0),
-                              turned_arm(view, center, 0, 0, deviations.reach)}) {
+    for (const View& moved :
+         {turned_arm(view, center, deviations.azimuth, 0, 0), turned_arm(view, center, 0, deviations.elevation, 0),
+          turned_arm(view, center, 0, 0, deviations.reach)}) {
       const PoseError::Vector error = error_between(view, moved);
       expected += error * error.transpose();
     }

@@ -26,8 +26,7 @@ TEST(PoseError, PanTiltAndRollTurnAboutTheSensorsAxes) {
   EXPECT_TRUE(tilted.axis().isApprox(Vec3(-std::cos(angle), 0, std::sin(angle)), 1e-12)) << "tilted up";
   const View rolled = displaced(commanded, error_of(5, angle));
   EXPECT_TRUE(rolled.axis().isApprox(commanded.axis(), 1e-12));
-  EXPECT_TRUE(
-      rolled.world_from_sensor.linear().col(0).isApprox(Vec3(0, std::cos(angle), -std::sin(angle)), 1e-12));
+  EXPECT_TRUE(rolled.world_from_sensor.linear().col(0).isApprox(Vec3(0, std::cos(angle), -std::sin(angle)), 1e-12));
   for (const View& turned : {panned, tilted, rolled}) {
     EXPECT_EQ(turned.position(), commanded.position());
     EXPECT_NEAR(rotation_angle(turned.world_from_sensor.linear(), commanded.world_from_sensor.linear()), angle, 1e-12);

@@ -247,8 +247,7 @@ std::vector<double> convolve_each(std::span<const double> utilities, const Candi
     } else if (dense) {
       result[v] = mean_around(candidates.grid->cell_of_view[v], *dense, *candidates.grid, error, options);
     } else {
-      result[v] = mean_of_neighbours(v, utilities, candidates,
-                                     ErrorDensity(error, Vec3::Constant(off_grid_tolerance)));
+      result[v] = mean_of_neighbours(v, utilities, candidates, ErrorDensity(error, Vec3::Constant(off_grid_tolerance)));
     }
   });
   return result;

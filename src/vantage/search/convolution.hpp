@@ -23,8 +23,8 @@ struct ConvolutionOptions {
 [[nodiscard]] std::vector<double> convolve(std::span<const double> utilities, const Candidates& candidates,
                                            const PositioningError& error, const ConvolutionOptions& options = {});
 
-/// The same for a robot whose error depends on the candidate, one error each. Always normalised by the whole kernel: with
-/// A = 1 a candidate would be worth the more the worse the robot gets there.
+/// The same for a robot whose error depends on the candidate, one error each. Always normalised by the whole kernel:
+/// with A = 1 a candidate would be worth the more the worse the robot gets there.
 [[nodiscard]] std::vector<double> convolve_each(std::span<const double> utilities, const Candidates& candidates,
                                                 std::span<const PositioningError> error_of_candidate,
                                                 const ConvolutionOptions& options = {});

@@ -56,8 +56,8 @@ class ExpectedUtility : public testing::Test {
 };
 
 TEST_F(ExpectedUtility, OfTheCellsAroundACandidateIsConvolutionAfterEvaluation) {
-  // The special case: a position-only error, the cells of the view cube as poses, eq. 19 as weights, the sensor turned to
-  // the center wherever it ends up, cells without a candidate worth nothing. This is eq. 20 to the last digits.
+  // The special case: a position-only error, the cells of the view cube as poses, eq. 19 as weights, the sensor turned
+  // to the center wherever it ends up, cells without a candidate worth nothing. This is eq. 20 to the last digits.
   const Candidates cube = view_cube(7, Vec3::Constant(4.1), 0.82, 1.9, Vec3::Zero());
   const ViewEvaluation asked = problem(cube);
   PositioningError error = PositioningError::from_deviations({0.3, 0.5, 0.4});
@@ -112,8 +112,8 @@ TEST_F(ExpectedUtility, IsTheMeanThatManyRandomPosesGive) {
       drawn << 0.1 * random.normal3(), radians(6) * random.normal3();
       const View view = displaced(each.view, drawn);
       const Visibility seen = see_exactly(map, camera, view, camera.resolution);
-      const double worth = combined_utility(
-          factors(seen, Travel{}.normalised(asked.current.position(), view.position()), options));
+      const double worth =
+          combined_utility(factors(seen, Travel{}.normalised(asked.current.position(), view.position()), options));
       const double all = seen.occupied + seen.occplane + seen.unmarked;
       sum += worth / draws;
       squares += worth * worth / draws;

@@ -26,11 +26,7 @@ void SimulatedRobotOptions::validate() const { depth_noise.validate(); }
 SimulatedRobot::SimulatedRobot(const RangeScanner& scanner, const RangeCamera& camera,
                                const SimulatedRobotOptions& options, std::uint64_t seed,
                                std::function<bool(const View&)> can_be_at)
-    : scanner_(scanner),
-      camera_(camera),
-      options_(options),
-      seed_(seed),
-      can_be_at_(std::move(can_be_at)) {
+    : scanner_(scanner), camera_(camera), options_(options), seed_(seed), can_be_at_(std::move(can_be_at)) {
   camera_.validate();
   options_.validate();
 }

@@ -12,8 +12,8 @@
 
 namespace vantage {
 
-/// Draws where a robot ends up that is sent to `commanded`. The position takes the first three random numbers, so that it
-/// is the same with and without an error of the orientation. Throws InputError as PoseError::validate does.
+/// Draws where a robot ends up that is sent to `commanded`. The position takes the first three random numbers, so that
+/// it is the same with and without an error of the orientation. Throws InputError as PoseError::validate does.
 [[nodiscard]] View perturbed(const View& commanded, const PoseError& error, Random& random);
 
 struct SimulatedRobotOptions {
@@ -24,9 +24,9 @@ struct SimulatedRobotOptions {
   void validate() const;
 };
 
-/// A robot with a range camera in front of a mesh. It ends up at the commanded pose plus a random error and believes to be
-/// where it was sent (spec, section 6). The error and the noise of the
-/// n-th move depend on the seed and n alone, so that runs with other plans meet the same errors.
+/// A robot with a range camera in front of a mesh. It ends up at the commanded pose plus a random error and believes to
+/// be where it was sent (spec, section 6). The error and the noise of the n-th move depend on the seed and n alone, so
+/// that runs with other plans meet the same errors.
 class SimulatedRobot : public Robot {
  public:
   /// The scanner must outlive the robot. `can_be_at` tells where there is room: commands to other places fail, errors

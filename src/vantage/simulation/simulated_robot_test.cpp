@@ -61,7 +61,7 @@ TEST(Perturbed, RefusesWhatIsNoCovariance) {
   indefinite.covariance << 0.01, 0.02, 0, 0.02, 0.01, 0, 0, 0, 0.01;
   for (const PositioningError& error : {negative, indefinite}) {
     try {
-          FAIL() << "nothing was thrown";
+      FAIL() << "nothing was thrown";
     } catch (const InputError& complaint) {
       EXPECT_THAT(complaint.what(), HasSubstr("positive semi-definite"));
     }
@@ -213,9 +213,7 @@ TEST_F(SimulatedRobotTest, NoiseIsOnTheImage) {
   EXPECT_GT(hits, 40);
 }
 
-TEST_F(SimulatedRobotTest, RefusesBadOptions) {
-  EXPECT_THROW(robot({.depth_noise = {.a = -1}}), InputError);
-}
+TEST_F(SimulatedRobotTest, RefusesBadOptions) { EXPECT_THROW(robot({.depth_noise = {.a = -1}}), InputError); }
 
 }  // namespace
 }  // namespace vantage
