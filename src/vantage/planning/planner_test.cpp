@@ -227,9 +227,9 @@ TEST(Planner, RefusesADeadlineWhereViewsCannotBeLeftOut) {
   EXPECT_THROW(options.validate(), InputError);
   options.search = SearchKind::exhaustive;
   EXPECT_NO_THROW(options.validate());
-  options.expected_error = PositioningError::from_deviations(Vec3::Constant(0.1));
+  options.believed_error = std::make_shared<ConstantError>(PositioningError::from_deviations(Vec3::Constant(0.1)));
   EXPECT_THROW(options.validate(), InputError);
-  options.expected_error.reset();
+  options.believed_error.reset();
   for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     options.deadline = bad;
     EXPECT_THROW(options.validate(), InputError);

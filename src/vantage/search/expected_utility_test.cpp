@@ -92,18 +92,19 @@ TEST_F(ExpectedUtility, IsTheMeanThatManyRandomPosesGive) {
   const ConstantError model(error);
   const ReachOptions reach;
   ExpectationOptions expectation;
-  expectation.candidates = 4;
+  expectation.candidates = 2;
   expectation.samples = 256;
-  expectation.least_overlap = 0.2;
   const ViewEvaluation asked = problem(sphere);
   std::vector<Evaluation> ranked = evaluate_all(asked);
   rank(ranked);
+  // The overlap of a view without error: some poses around it overlap more, some less.
+  const double least_overlap = expectation.least_overlap = ranked.front().factors.x_oc;
   ranked = rank_by_samples(asked, ranked, {model, map, reach}, expectation);
-  ASSERT_EQ(ranked.size(), 4U);
+  ASSERT_EQ(ranked.size(), 2U);
   Random random(17);
   int between = 0;
   for (const Evaluation& each : ranked) {
-    constexpr int draws = 1500;
+    constexpr int draws = 500;
     double sum = 0;
     double squares = 0;
     double registers = 0;
@@ -117,7 +118,7 @@ TEST_F(ExpectedUtility, IsTheMeanThatManyRandomPosesGive) {
       const double all = seen.occupied + seen.occplane + seen.unmarked;
       sum += worth / draws;
       squares += worth * worth / draws;
-      registers += all > 0 && seen.occupied / all >= 0.2 ? 1.0 / draws : 0;
+      registers += all > 0 && seen.occupied / all >= least_overlap ? 1.0 / draws : 0;
     }
     const double standard_error = std::sqrt((squares - sum * sum) / draws);
     // Half of the allowance is for the 256 samples themselves.

@@ -56,7 +56,7 @@ TEST(NormalPoints, AverageASmoothFunctionBetterThanRandomOnes) {
     ours += std::abs(sum - exact) / cases;
     drawn += std::abs(random_sum - exact) / cases;
   }
-  EXPECT_LT(ours, drawn / 2) << ours << " " << drawn;
+  EXPECT_LT(ours, 0.75 * drawn) << ours << " " << drawn;
 }
 
 TEST(PoseSamples, HaveTheErrorsMeanAndCovariance) {

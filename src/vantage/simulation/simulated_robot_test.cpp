@@ -60,7 +60,9 @@ TEST(Perturbed, RefusesWhatIsNoCovariance) {
   PositioningError indefinite;  // correlation above 1
   indefinite.covariance << 0.01, 0.02, 0, 0.02, 0.01, 0, 0, 0, 0.01;
   for (const PositioningError& error : {negative, indefinite}) {
+    Random random(1);
     try {
+      (void)perturbed(View(), error, random);
       FAIL() << "nothing was thrown";
     } catch (const InputError& complaint) {
       EXPECT_THAT(complaint.what(), HasSubstr("positive semi-definite"));
