@@ -30,8 +30,8 @@ void describe(ExperimentOptions& o, Field&& field) {
 /// The experiments that can be run, in the paper's order.
 [[nodiscard]] std::vector<std::string> experiment_names();
 
-/// The experiments that `name` stands for: one, or with `all` every one. Throws InputError that lists the names for an
-/// unknown one, and where an option is wrong.
+/// The experiments that `name` stands for: one, or with `all` the paper's tables and figures. Throws InputError that
+/// lists the names for an unknown one, and where an option is wrong.
 [[nodiscard]] std::vector<Experiment> make_experiments(const std::string& name, const ExperimentOptions& options);
 
 /// All runs of the experiments in one list.

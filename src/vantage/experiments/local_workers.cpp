@@ -10,6 +10,17 @@
 
 namespace vantage {
 
+RunResult result_of(const SweepRun& run, const Interrupted& interrupted) {
+  try {
+    if (interrupted()) throw RunInterrupted();
+    return {run.work(interrupted), "", false};
+  } catch (const RunInterrupted& interruption) {
+    return {std::nullopt, interruption.what(), true};
+  } catch (const std::exception& error) {
+    return {std::nullopt, error.what(), false};
+  }
+}
+
 LocalWorkers::LocalWorkers(std::span<const SweepRun> runs, const Interrupted& interrupted)
     : runs_(runs), interrupted_(interrupted), thread_([this] { work(); }) {}
 
@@ -66,10 +77,14 @@ void LocalWorkers::work() {
 }
 
 void LocalWorkers::serve() {
+  const Interrupted stop = [this] {
+    const std::lock_guard lock(mutex_);
+    return abandoned_ || interrupted_();
+  };
   while (const std::optional<std::size_t> run = take()) {
     RunResult result;
     // Isolated: a run that waits for its own loops must not take up another run, and so become the last to finish.
-    tbb::this_task_arena::isolate([&] { result = result_of(runs_[*run]); });
+    tbb::this_task_arena::isolate([&] { result = result_of(runs_[*run], stop); });
     {
       const std::lock_guard lock(mutex_);
       finished_.push_back({*run, std::move(result)});
@@ -89,21 +104,6 @@ std::optional<std::size_t> LocalWorkers::take() {
   const std::size_t run = assigned_.front();
   assigned_.pop_front();
   return run;
-}
-
-RunResult LocalWorkers::result_of(const SweepRun& run) const {
-  const Interrupted stop = [this] {
-    const std::lock_guard lock(mutex_);
-    return abandoned_ || interrupted_();
-  };
-  try {
-    if (stop()) throw RunInterrupted();
-    return {run.work(stop), "", false};
-  } catch (const RunInterrupted& interruption) {
-    return {std::nullopt, interruption.what(), true};
-  } catch (const std::exception& error) {
-    return {std::nullopt, error.what(), false};
-  }
 }
 
 }  // namespace vantage

@@ -21,6 +21,9 @@ struct RunResult {
   bool interrupted = false;  // it may yet get an outcome at the next start
 };
 
+/// Works on one run in this thread; what it throws becomes the result's error.
+[[nodiscard]] RunResult result_of(const SweepRun& run, const Interrupted& interrupted);
+
 /// The threads of this process that work on runs of a sweep, as many as oneTBB grants. One other thread hands out the
 /// runs and collects what came of them.
 class LocalWorkers {
@@ -52,7 +55,6 @@ class LocalWorkers {
   void work();
   void serve();
   [[nodiscard]] std::optional<std::size_t> take();
-  [[nodiscard]] RunResult result_of(const SweepRun& run) const;
 
   std::span<const SweepRun> runs_;
   const Interrupted& interrupted_;

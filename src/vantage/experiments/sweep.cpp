@@ -34,9 +34,17 @@ class Dispatcher {
   }
 
   std::vector<RunResult> run() {
-    LocalWorkers workers(runs_, control_.interrupted);
     report();
-    while (progress_.remaining > 0 || said_bye_ < others_) {
+    work_together();
+    for (const std::size_t run : alone_) note(run, result_of(runs_[run], control_.interrupted));
+    for (std::size_t i = 0; i < runs_.size(); ++i) results_[i] = results_[first_equal_[i]];
+    return std::move(results_);
+  }
+
+ private:
+  void work_together() {
+    LocalWorkers workers(runs_, control_.interrupted);
+    while (progress_.remaining > alone_.size() || said_bye_ < others_) {
       if (control_.interrupted()) give_up_pending();
       while (workers.wanted() > 0 && !pending_.empty()) workers.assign(next());
       if (pending_.empty()) {
@@ -48,11 +56,8 @@ class Dispatcher {
       while (const auto message = ranks_.receive()) handle(*message);
       if (seconds_since(reported_) >= seconds_between_reports) report();
     }
-    for (std::size_t i = 0; i < runs_.size(); ++i) results_[i] = results_[first_equal_[i]];
-    return std::move(results_);
   }
 
- private:
   void find_what_is_left() {
     std::map<std::string, std::size_t> seen;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -62,10 +67,10 @@ class Dispatcher {
         results_[i].outcome = std::move(stored);
         ++progress_.stored;
       } else {
-        pending_.push_back(i);
+        (runs_[i].place == SweepRun::Place::alone ? alone_ : pending_).push_back(i);
       }
     }
-    progress_.remaining = pending_.size();
+    progress_.remaining = pending_.size() + alone_.size();
   }
 
   std::size_t next() {
@@ -138,7 +143,7 @@ class Dispatcher {
   std::string digest_;
   std::vector<RunResult> results_;
   std::vector<std::size_t> first_equal_;  // the first run with the same configuration
-  std::deque<std::size_t> pending_;
+  std::deque<std::size_t> pending_, alone_;
   std::size_t others_, said_bye_ = 0;
   bool told_to_stop_ = false;
   SweepProgress progress_;

@@ -46,6 +46,12 @@ SweepObject::SweepObject(std::string name, TriangleMesh mesh, double size, std::
       source_(std::move(source)),
       digest_(mesh_digest(mesh_, size_)) {}
 
+std::shared_ptr<const RangeScanner> SweepObject::scanner(const ReconstructOptions& options) const {
+  TriangleMesh placed = centred_and_scaled(mesh_, size_);
+  for (Vec3& vertex : placed.vertices) vertex += options.center;
+  return std::make_shared<const RangeScanner>(std::move(placed));
+}
+
 std::shared_ptr<const SimulatedObject> SweepObject::simulated(const ReconstructOptions& options) const {
   const std::string key = truth_key(options);
   const std::lock_guard lock(building_);

@@ -23,6 +23,8 @@ class SweepObject {
   [[nodiscard]] const std::string& digest() const { return digest_; }
   [[nodiscard]] double size() const { return size_; }
 
+  /// The object in front of the scanner only, without what can be seen of it.
+  [[nodiscard]] std::shared_ptr<const RangeScanner> scanner(const ReconstructOptions& options) const;
   /// The object in the simulator with what the candidates and camera of these options can see of it; shared by all runs
   /// that agree in those. Any thread may ask.
   [[nodiscard]] std::shared_ptr<const SimulatedObject> simulated(const ReconstructOptions& options) const;

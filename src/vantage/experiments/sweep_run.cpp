@@ -81,7 +81,8 @@ SweepRun reconstruction_run(const std::string& name, std::shared_ptr<const Sweep
   for (const OptionField& field : option_fields(described)) values[field.name] = field.text();
   configuration["options"] = values;
 
-  return {name, configuration.dump(), [object, options, extra](const Interrupted& interrupted) {
+  return {name, configuration.dump(),
+          [object, options, extra](const Interrupted& interrupted) {
             const std::shared_ptr<const SimulatedObject> simulated = object->simulated(options);
             RunOutcome outcome;
             RunObserver observer;
@@ -94,7 +95,8 @@ SweepRun reconstruction_run(const std::string& name, std::shared_ptr<const Sweep
             add_totals(outcome, run);
             if (extra.add) extra.add(run, *simulated, outcome);
             return outcome;
-          }};
+          },
+          SweepRun::Place::anywhere};
 }
 
 }  // namespace vantage

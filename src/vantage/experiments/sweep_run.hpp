@@ -25,6 +25,9 @@ struct SweepRun {
   std::string name;           // for people and file names: "mug, exhaustive, start 8"
   std::string configuration;  // JSON text of all that decides the outcome
   std::function<RunOutcome(const Interrupted&)> work;
+  /// Runs that measure time want the machine alone: they come last, on rank 0, one at a time, with all its threads.
+  enum class Place { anywhere, alone };
+  Place place = Place::anywhere;
 };
 
 /// More that is to be measured of every reconstruction, beyond what reconstruction_run() does by itself.

@@ -156,6 +156,31 @@ TEST(Sweep, ResultsAreTheSameForAnyNumberOfRanksAndThreads) {
   EXPECT_EQ(cases, 12);
 }
 
+TEST(Sweep, RunsThatMeasureTimeHaveTheMachineAlone) {
+  const ScratchFolder folder;
+  const Count worked = counter();
+  const auto active = std::make_shared<std::atomic<int>>(0);
+  std::vector<SweepRun> runs;
+  for (int number = 0; number < 12; ++number) {
+    runs.push_back(square(number + 20, worked));
+    const bool alone = number % 3 == 0;
+    if (alone) runs.back().place = SweepRun::Place::alone;
+    runs.back().work = [active, alone, work = runs.back().work](const Interrupted& interrupted) {
+      if (++*active > 1 && alone) throw Error("not alone");
+      RunOutcome outcome = work(interrupted);
+      outcome.numbers["order"] = outcome.times["work"][0];  // counts the runs done so far
+      --*active;
+      return outcome;
+    };
+  }
+  const std::vector<RunResult> results = run_on_ranks(3, runs, folder);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    ASSERT_TRUE(results[i].outcome) << results[i].error;
+    const double least = i % 3 == 0 ? 0.0085 : 0;  // after the eight others
+    EXPECT_GT(results[i].outcome->number("order"), least);
+  }
+}
+
 TEST(Sweep, AllRanksEndWhereNothingIsLeftToDo) {
   const ScratchFolder folder;
   const Count worked = counter();

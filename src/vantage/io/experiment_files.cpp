@@ -161,11 +161,65 @@ Json chart_json(const ExperimentFigure& figure, const LineChart& chart) {
     }
     series.push_back({{"name", "paper"}, {"x", numbers(x)}, {"y", numbers(y)}, {"paper", true}});
   }
-  return {{"name", figure.name},
-          {"title", chart.title},
-          {"x_label", chart.x.label},
-          {"y_label", chart.y.label},
+  return {{"name", figure.name},      {"title", chart.title},     {"kind", "lines"},
+          {"x_label", chart.x.label}, {"y_label", chart.y.label}, {"series", series}};
+}
+
+Json chart_json(const ExperimentFigure& figure, const BarChart& chart) {
+  Json series = Json::array();
+  for (const BarSeries& bars : chart.series) {
+    Json entry{{"name", bars.name}, {"y", numbers(bars.value)}};
+    if (!bars.low.empty()) {
+      entry["low"] = numbers(bars.low);
+      entry["high"] = numbers(bars.high);
+    }
+    series.push_back(std::move(entry));
+    if (!bars.paper.empty())
+      series.push_back({{"name", fmt::format("paper {}", bars.name)}, {"y", numbers(bars.paper)}, {"paper", true}});
+  }
+  return {{"name", figure.name},      {"title", chart.title},
+          {"kind", "bars"},           {"x_label", chart.category_label},
+          {"y_label", chart.y.label}, {"categories", chart.categories},
           {"series", series}};
+}
+
+Json grid_json(const ExperimentFigure& figure, const std::string& title, const std::string& kind,
+               const GridValues& grid) {
+  grid.validate();
+  return {{"name", figure.name},
+          {"title", title},
+          {"kind", kind},
+          {"x_label", grid.x_label},
+          {"y_label", grid.y_label},
+          {"value_label", grid.value_label},
+          {"x", {grid.x_low, grid.x_high}},
+          {"y", {grid.y_low, grid.y_high}},
+          {"columns", grid.columns},
+          {"rows", grid.rows},
+          {"values", numbers(grid.values)}};
+}
+
+Json chart_json(const ExperimentFigure& figure, const HeatMap& map) {
+  return grid_json(figure, map.title, "heat", map.grid);
+}
+
+Json chart_json(const ExperimentFigure& figure, const SurfacePlot& plot) {
+  return grid_json(figure, plot.title, "surface", plot.grid);
+}
+
+Json chart_json(const ExperimentFigure& figure, const SphereMap& map) {
+  Json directions = Json::array();
+  for (const Vec3& direction : map.directions) {
+    const Vec3 unit = direction.normalized();
+    directions.push_back({unit.x(), unit.y(), unit.z()});
+  }
+  return {{"name", figure.name},
+          {"title", map.title},
+          {"kind", "sphere"},
+          {"value_label", map.value_label},
+          {"directions", directions},
+          {"values", numbers(map.values)},
+          {"chosen", map.chosen ? Json(*map.chosen) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -210,7 +264,7 @@ Json json(const ExperimentReport& report) {
     if (const auto* table = std::get_if<ExperimentTable>(&part)) tables.push_back(table_json(*table));
     if (const auto* figure = std::get_if<ExperimentFigure>(&part))
       for (const ExperimentFigure::Plot& plot : figure->plots)
-        if (const auto* chart = std::get_if<LineChart>(&plot)) figures.push_back(chart_json(*figure, *chart));
+        figures.push_back(std::visit([figure](const auto& chosen) { return chart_json(*figure, chosen); }, plot));
   }
   return {{"format", "vantage-experiment"},
           {"version", 1},

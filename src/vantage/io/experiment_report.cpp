@@ -80,6 +80,14 @@ std::string html_of(const ExperimentFigure& figure, int number) {
 
 }  // namespace
 
+ExperimentReport only(const ExperimentReport& report, ExperimentContent content) {
+  ExperimentReport part = report;
+  std::erase_if(part.parts, [content](const ExperimentReport::Part& each) {
+    return std::visit([](const auto& p) { return p.content; }, each) != content;
+  });
+  return part;
+}
+
 std::string html(const ExperimentReport& report) {
   std::string body = fmt::format("<style>\n{}</style>\n<article class=\"report\">\n", report_style());
   body += fmt::format("<p class=\"eyebrow\">Vantage · experiment</p>\n<h1>{}</h1>\n", escape_markup(report.title));

@@ -11,6 +11,9 @@
 
 namespace vantage {
 
+/// What a part of a report holds. Times differ whenever the experiment is repeated, all else does not.
+enum class ExperimentContent { results, times };
+
 /// A table with a row per object (or method) and a column per measure.
 struct ExperimentTable {
   struct Column {
@@ -32,6 +35,7 @@ struct ExperimentTable {
     std::vector<Cell> cells;  // as many as columns
   };
   std::vector<Row> rows;
+  ExperimentContent content = ExperimentContent::results;
 };
 
 /// A figure of one or several plots.
@@ -41,6 +45,7 @@ struct ExperimentFigure {
   std::string title;  // for people
   std::string note;   // in the caption; may be empty
   std::vector<Plot> plots;
+  ExperimentContent content = ExperimentContent::results;
 };
 
 /// What an experiment found, in the order in which it is to be read.
@@ -51,6 +56,9 @@ struct ExperimentReport {
   std::vector<std::string> text;  // paragraphs before the parts
   std::vector<Part> parts;
 };
+
+/// The parts of the report with that content.
+[[nodiscard]] ExperimentReport only(const ExperimentReport& report, ExperimentContent content);
 
 /// The report as one page without script and without other files: tables with the paper's number beside ours, plots
 /// with error bands and the paper's values drawn in.

@@ -118,9 +118,28 @@ TEST(ExperimentReport, WritesTheDocumentOfTheViewer) {
   EXPECT_EQ(table["estimates"][0][0]["runs"], 3);
   EXPECT_EQ(table["estimates"][0][0]["in_band"], false);
   EXPECT_TRUE(table["estimates"][1][0].is_null());
-  ASSERT_EQ(document["figures"].size(), 1U);  // the curves
+  ASSERT_EQ(document["figures"].size(), 5U);
+  EXPECT_EQ(document["figures"][0]["kind"], "lines");
   EXPECT_EQ(document["figures"][0]["series"][0]["y"].dump(), "[50.0,null]");
   EXPECT_EQ(document["figures"][0]["series"][1]["paper"], true);
+  EXPECT_EQ(document["figures"][1]["kind"], "bars");
+  EXPECT_EQ(document["figures"][1]["categories"].dump(), R"(["mug"])");
+  EXPECT_EQ(document["figures"][1]["series"][0].dump(), R"({"name":"ours","y":[8.0],"low":[7.0],"high":[9.0]})");
+  EXPECT_EQ(document["figures"][1]["series"][1].dump(), R"({"name":"paper ours","y":[7.5],"paper":true})");
+  EXPECT_EQ(document["figures"][2]["kind"], "heat");
+  EXPECT_EQ(document["figures"][3]["kind"], "surface");
+  EXPECT_EQ(document["figures"][3]["values"].dump(), "[1.0,null]");
+  EXPECT_EQ(document["figures"][3]["x"].dump(), "[-1.0,1.0]");
+  EXPECT_EQ(document["figures"][4]["kind"], "sphere");
+  EXPECT_EQ(document["figures"][4]["directions"].dump(), "[[1.0,0.0,0.0]]");
+}
+
+TEST(ExperimentReport, KeepsTimesApart) {
+  ExperimentTable times = small_table();
+  times.content = ExperimentContent::times;
+  const ExperimentReport report{"Title", "vantage 0", {}, {small_table(), times, small_figure()}};
+  EXPECT_EQ(only(report, ExperimentContent::results).parts.size(), 2U);
+  EXPECT_EQ(only(report, ExperimentContent::times).parts.size(), 1U);
 }
 
 TEST(ExperimentReport, NamesTheRowThatDoesNotFit) {
