@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/planning/moves.hpp"
+#include "vantage/robot/free_flyer.hpp"
 #include "vantage/search/timed_search.hpp"
 
 namespace vantage {
@@ -78,14 +80,20 @@ Planner::Planner(Candidates candidates, const RangeCamera& camera, const Planner
   camera_.validate();
   options_.validate();
   require(!candidates_.views.empty(), "candidates: there are none");
-  // The navigation factor is made for a sphere (spec, section 4).
-  if (candidates_.kind == Candidates::Kind::grid) options_.factors.navigation = false;
+  require(options_.travel != TravelKind::orthodromic || candidates_.kind == Candidates::Kind::sphere,
+          "travel = orthodromic: needs candidates on a sphere; use straight or path");
+  // The navigation factor is made for a sphere (spec, section 4), unless the user says what moves are counted by.
+  if (candidates_.kind == Candidates::Kind::grid && !options_.travel) options_.factors.navigation = false;
+  if (options_.travel == TravelKind::path && !options_.robot) {
+    options_.robot = std::make_shared<FreeFlyer>(options_.reach);
+  }
 }
 
 Travel Planner::travel() const {
   Travel travel;
   travel.center = candidates_.center;
-  if (candidates_.kind == Candidates::Kind::sphere) {
+  if (candidates_.kind == Candidates::Kind::sphere &&
+      options_.travel.value_or(TravelKind::orthodromic) == TravelKind::orthodromic) {
     travel.path = Travel::Path::orthodromic;
     travel.radius = (candidates_.views.front().position() - candidates_.center).norm();
   }
@@ -133,15 +141,13 @@ void Planner::believe(const PoseError& error) {
 std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& current) {
   const auto start = std::chrono::steady_clock::now();
   Plan plan;
+  Moves moves(options_, candidates_, travel(), map, state_behind(current));
+  const auto reasons = moves.why_excluded([&](int candidate) { return why_excluded(map, candidate); });
   std::vector<int> feasible;
   for (int i = 0; i < static_cast<int>(candidates_.views.size()); ++i) {
-    if (const auto reason = why_excluded(map, i)) {
-      Evaluation excluded;
-      excluded.candidate = i;
-      excluded.view = candidates_.views[static_cast<std::size_t>(i)];
-      excluded.feasible = false;
-      excluded.reason = *reason;
-      plan.infeasible.push_back(std::move(excluded));
+    const auto at = static_cast<std::size_t>(i);
+    if (reasons[at]) {
+      plan.infeasible.push_back(infeasible(i, candidates_.views[at], *reasons[at]));
     } else {
       feasible.push_back(i);
     }
@@ -153,22 +159,94 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   }
 
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{visibility, camera_, candidates_,      map.grid().length,
-                               travel(),   current, options_.factors, utility_};
+  const ViewEvaluation problem{visibility,        camera_,  candidates_,
+                               map.grid().length, travel(), current,
+                               options_.factors,  utility_, moves.normalised_costs(feasible)};
   plan.feasible = feasible.size();
   plan.ranking = search(problem, feasible, start);
-  if (!meets_occplane(plan.ranking, options_.stop_occplane)) {
-    why_finished_ = options_.stop_occplane == 0
-                        ? "no feasible view meets an occplane voxel any more"
-                        : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
-    return std::nullopt;
-  }
+  if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
   if (options_.believed_error) expect_errors(plan, problem, map);
+  return settled(std::move(plan), moves, problem);
+}
+
+std::optional<Plan> Planner::finished() {
+  why_finished_ = options_.stop_occplane == 0
+                      ? "no feasible view meets an occplane voxel any more"
+                      : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
+  return std::nullopt;
+}
+
+std::optional<Plan> Planner::settled(Plan plan, const Moves& moves, const ViewEvaluation& problem) {
+  if (options_.robot) {
+    moves.settle(plan, [&problem](const Evaluation& e, double cost) { return problem.with_cost(e, cost); });
+    if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
+  }
   plan.best = plan.ranking.front();
-  plan.explanation = explain(plan.best, rivals(plan, options_.deadline),
-                             angle_seen_from(candidates_.center, current.position(), plan.best.view.position()));
+  plan.explanation =
+      explain(plan.best, rivals(plan, options_.deadline),
+              angle_seen_from(candidates_.center, problem.current.position(), plan.best.view.position()));
   why_finished_.clear();
   return plan;
+}
+
+std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& current, Plan plan,
+                                          const std::string& reason) {
+  discard(plan.best.candidate, reason);
+  plan.infeasible.push_back(infeasible(plan.best.candidate, plan.best.view, reason));
+  std::erase_if(plan.ranking, [&](const Evaluation& each) { return each.candidate == plan.best.candidate; });
+  std::vector<int> ranked;
+  for (const Evaluation& each : plan.ranking) ranked.push_back(each.candidate);
+  if (!meets_occplane(plan.ranking, options_.stop_occplane)) return std::nullopt;
+  --plan.feasible;
+  plan.move = {};
+  Moves moves(options_, candidates_, travel(), map, state_behind(current));
+  const VisibilityEvaluator visibility(map);
+  const ViewEvaluation problem{visibility,        camera_,  candidates_,
+                               map.grid().length, travel(), current,
+                               options_.factors,  utility_, moves.normalised_costs(ranked)};
+  return settled(std::move(plan), moves, problem);
+}
+
+std::vector<std::optional<std::string>> Planner::why_infeasible_now(const VoxelMap& map, const View& current) const {
+  const Moves moves(options_, candidates_, travel(), map, state_behind(current));
+  return moves.why_excluded([&](int candidate) { return why_excluded(map, candidate); });
+}
+
+RobotState Planner::state_behind(const View& current) const {
+  const auto is_current = [&current](const View& view) {
+    return view.world_from_sensor.isApprox(current.world_from_sensor, 1e-9);
+  };
+  if (state_ && is_current(state_->view)) return *state_;
+  if (!options_.robot) return {current};
+  if (auto state = options_.robot->state_at(current)) return *state;
+  // A sensor where the robot cannot have put it: somebody else did, and the robot still waits.
+  return options_.robot->home().value_or(RobotState{current});
+}
+
+std::optional<std::string> Planner::begin_at(const VoxelMap& map, int candidate) {
+  const View& view = candidates_.views[static_cast<std::size_t>(candidate)];
+  if (auto reason = why_excluded(map, candidate)) return reason;
+  if (!options_.robot) return std::nullopt;
+  const auto mobility = options_.robot->among({map, options_.reach.obstacles});
+  if (auto reason = mobility->why_unreachable(view)) return reason;
+  const auto home = options_.robot->home();
+  if (!home) {
+    state_ = options_.robot->state_at(view);
+    return std::nullopt;
+  }
+  const Move move = mobility->move(*home, view);
+  if (!move.possible()) return move.why_not;
+  state_ = move.path.back();
+  return std::nullopt;
+}
+
+void Planner::arrived(const Plan& plan) {
+  if (plan.move.possible()) state_ = plan.move.path.back();
+}
+
+double Planner::distance_of(const Plan& plan, const Vec3& from) const {
+  if (options_.travel == TravelKind::path) return plan.move.cost;
+  return travel().distance(from, plan.best.view.position());
 }
 
 void Planner::discard(int candidate, const std::string& reason) { discarded_[candidate] = reason; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/robot/reach.hpp"
+#include "vantage/robot/robot_model.hpp"
 #include "vantage/search/expected_utility.hpp"
 #include "vantage/search/search.hpp"
 
@@ -28,6 +29,13 @@ struct PlannerOptions {
   std::string utility = "combined";  // see utility_by_name
   UtilityOptions factors;
   ReachOptions reach;
+  /// The robot, besides `reach`: only views that it can reach are planned, each with the way there. None: a free flyer
+  /// whose ways are not asked for.
+  std::shared_ptr<const RobotModel> robot;
+  /// What moves are counted by; by default orthodromic on a sphere and straight elsewhere. Asked for, `straight` and
+  /// `path` give eq. 10 the cost of a move over that of the largest direct one among the feasible views; `path` without
+  /// a robot takes a free flyer. Where the robot's error is planned for, `path` ranks by direct costs.
+  std::optional<TravelKind> travel;
   /// How the robot errs as far as the planner knows; without it views are ranked as if the robot were perfect.
   std::shared_ptr<const PoseErrorModel> believed_error;
   ErrorMethod error_method = ErrorMethod::convolution;
@@ -48,6 +56,7 @@ struct PlannerOptions {
 /// The next best view with all that led to it.
 struct Plan {
   Evaluation best;
+  Move move;                           // how the robot gets there; without a path where no model of the robot is given
   std::vector<Evaluation> ranking;     // views that were evaluated to the end, best first
   std::vector<Evaluation> infeasible;  // candidates that fell out, with the reason
   std::size_t feasible = 0;            // candidates that could be chosen; more than are ranked where time ran out
@@ -62,6 +71,22 @@ class Planner {
   /// The best view to take next from `current`, or nothing where no feasible view meets an occplane voxel any more;
   /// why_finished() then says so.
   [[nodiscard]] std::optional<Plan> next_best_view(const VoxelMap& map, const View& current);
+  /// For a plan whose best view turned out to be out of reach: discards that view and takes the next in rank from the
+  /// same `current` and map. Nothing where none that is left in the ranking is of use; next_best_view() then knows
+  /// whether others are.
+  [[nodiscard]] std::optional<Plan> next_in_rank(const VoxelMap& map, const View& current, Plan plan,
+                                                 const std::string& reason);
+  /// Why each candidate is not feasible now, or nothing where it is.
+  [[nodiscard]] std::vector<std::optional<std::string>> why_infeasible_now(const VoxelMap& map,
+                                                                           const View& current) const;
+  /// Brings the robot's model to a candidate from where it waits; what is in the way of that, or nothing.
+  [[nodiscard]] std::optional<std::string> begin_at(const VoxelMap& map, int candidate);
+  /// The robot has made the plan's move: the next one begins where it ends.
+  void arrived(const Plan& plan);
+  /// What the plan's move counts in the sum of distances: the cost of its path where the travel is asked to be that,
+  /// else the distance between the positions.
+  [[nodiscard]] double distance_of(const Plan& plan, const Vec3& from) const;
+
   /// The robot cannot reach this candidate: it is not planned again.
   void discard(int candidate, const std::string& reason);
   /// This candidate's scan could not be used: it is not planned again until the map changes.
@@ -74,13 +99,19 @@ class Planner {
   [[nodiscard]] const Candidates& candidates() const { return candidates_; }
   [[nodiscard]] const RangeCamera& camera() const { return camera_; }
   [[nodiscard]] const PlannerOptions& options() const { return options_; }
-  /// How the length of moves between the candidates is counted: orthodromic on a sphere, straight elsewhere.
+  /// How the length of moves between the candidates is counted where no path is asked: by default orthodromic on a
+  /// sphere, straight elsewhere.
   [[nodiscard]] Travel travel() const;
 
  private:
   [[nodiscard]] std::optional<std::string> why_excluded(const VoxelMap& map, int candidate) const;
   [[nodiscard]] std::vector<Evaluation> search(const ViewEvaluation& problem, const std::vector<int>& feasible,
                                                std::chrono::steady_clock::time_point start) const;
+  /// Where the robot is that has its sensor at `current`.
+  [[nodiscard]] RobotState state_behind(const View& current) const;
+  [[nodiscard]] std::optional<Plan> finished();
+  /// Settles on the best view of the ranking that the robot gets to.
+  [[nodiscard]] std::optional<Plan> settled(Plan plan, const class Moves& moves, const ViewEvaluation& problem);
   void expect_errors(Plan& plan, const ViewEvaluation& problem, const VoxelMap& map) const;
 
   Candidates candidates_;
@@ -89,6 +120,7 @@ class Planner {
   Utility utility_;
   std::map<int, std::string> discarded_, set_aside_;
   std::string why_finished_;
+  std::optional<RobotState> state_;  // after the last move that was planned
 };
 
 }  // namespace vantage

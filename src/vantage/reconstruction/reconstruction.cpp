@@ -76,8 +76,7 @@ void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, 
   if (plan != nullptr) record.planned = plan->best;
   if (!model.scans.empty()) {
     const ScanRecord& last = model.scans.back();
-    record.distance =
-        last.distance + planner_.travel().distance(last.commanded.position(), record.commanded.position());
+    record.distance = last.distance + (plan != nullptr ? planner_.distance_of(*plan, last.commanded.position()) : 0);
   }
   if (record.merged) {
     planner_.map_changed();
@@ -123,24 +122,26 @@ void Reconstruction::run(ObjectModel& model, int initial_candidate) {
   require(initial_candidate >= 0 && initial_candidate < static_cast<int>(candidates.size()),
           "initial-view = ", initial_candidate, ": must be one of the candidates 0 .. ", candidates.size() - 1);
   const View& initial = candidates[static_cast<std::size_t>(initial_candidate)];
-  if (const auto reason = why_infeasible(model.map, initial, planner_.options().reach)) {
+  if (const auto reason = planner_.begin_at(model.map, initial_candidate)) {
     throw InputError(concat("initial-view = ", initial_candidate, ": not feasible, ", *reason));
   }
   require(robot_.move_to(initial), "initial-view = ", initial_candidate, ": the robot cannot reach it");
   scan_and_update(model, initial, nullptr, initial_candidate, 0);
   while ((stop_reason_ = why_stop(model, seconds_since(start))).empty()) {
     const auto plan_start = Clock::now();
-    const std::optional<Plan> plan = planner_.next_best_view(model.map, robot_.view());
+    std::optional<Plan> plan = planner_.next_best_view(model.map, robot_.view());
     const double plan_seconds = seconds_since(plan_start);
     if (!plan) {
       stop_reason_ = planner_.why_finished();
       return;
     }
     on_plan(*plan);
-    if (!robot_.move_to(plan->best.view)) {
-      planner_.discard(plan->best.candidate, "the robot could not reach it");
-      continue;
+    while (plan && !(plan->move.possible() ? robot_.follow(plan->move) : robot_.move_to(plan->best.view))) {
+      plan = planner_.next_in_rank(model.map, robot_.view(), *std::move(plan), "the robot could not reach it");
+      if (plan) on_plan(*plan);
     }
+    if (!plan) continue;
+    planner_.arrived(*plan);
     scan_and_update(model, plan->best.view, &*plan, plan->best.candidate, plan_seconds);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vantage/robot/robot_model.hpp"
 #include "vantage/sensor/range_image.hpp"
 #include "vantage/sensor/view.hpp"
 
@@ -16,6 +17,9 @@ class Robot {
   /// Moves the sensor towards `view`; false where it turns out that the robot cannot get there. Where it ends up may
   /// differ from `view` without the robot's knowledge.
   [[nodiscard]] virtual bool move_to(const View& view) = 0;
+  /// Moves along a path that was planned with the robot's model; false as with move_to. A robot that finds its own way
+  /// goes for the end of it.
+  [[nodiscard]] virtual bool follow(const Move& move) { return move_to(move.path.back().view); }
   /// Scans from where the sensor is.
   [[nodiscard]] virtual RangeImage take_range_image() = 0;
   /// Where the robot believes the sensor to be.

@@ -4,6 +4,9 @@
 
 namespace vantage {
 
+/// What a move is counted by: the sphere's great circle, the straight line, or the way that the robot really takes.
+enum class TravelKind { orthodromic, straight, path };
+
 /// How the length of a move is counted (paper, section 5.2; spec, section 8).
 struct Travel {
   enum class Path {

@@ -43,7 +43,13 @@ Evaluation ViewEvaluation::evaluation(int candidate, Resolution rays, const Visi
   result.view = candidates.views[static_cast<std::size_t>(candidate)];
   result.resolution = rays;
   result.seen = seen;
-  result.factors = factors(seen, travel.normalised(current.position(), result.view.position()), options);
+  return with_cost(std::move(result), normalised_costs.empty()
+                                          ? travel.normalised(current.position(), result.view.position())
+                                          : normalised_costs[static_cast<std::size_t>(candidate)]);
+}
+
+Evaluation ViewEvaluation::with_cost(Evaluation result, double normalised_cost) const {
+  result.factors = factors(result.seen, normalised_cost, options);
   result.utility = utility(result.seen, result.factors);
   result.score = result.utility;
   return result;

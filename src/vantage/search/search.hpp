@@ -58,6 +58,8 @@ struct ViewEvaluation {
   View current;
   UtilityOptions options;
   Utility utility;
+  /// x of eq. 10 per candidate where moves are not counted as `travel` does; else empty.
+  std::vector<double> normalised_costs = {};
 
   /// The ideal resolution of a candidate (eq. 14), from its distance to the center.
   [[nodiscard]] Resolution ideal(int candidate) const;
@@ -69,6 +71,8 @@ struct ViewEvaluation {
   [[nodiscard]] std::vector<Evaluation> evaluate_until(std::chrono::steady_clock::time_point deadline,
                                                        std::span<const int> candidate_indices,
                                                        std::span<const Resolution> resolutions) const;
+  /// The same view where the move there has another x of eq. 10.
+  [[nodiscard]] Evaluation with_cost(Evaluation evaluation, double normalised_cost) const;
 
  private:
   [[nodiscard]] Evaluation evaluation(int candidate, Resolution resolution, const Visibility& seen) const;
