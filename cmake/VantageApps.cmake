@@ -10,6 +10,11 @@ vantage_library(simulation simulation)
 target_link_libraries(vantage_simulation
   PUBLIC vantage_core PRIVATE embree $<BUILD_INTERFACE:nanoflann::nanoflann> fmt::fmt)
 
+vantage_require(arm fcl)
+vantage_require(arm urdfdom)
+vantage_library(arm arm)
+target_link_libraries(vantage_arm PUBLIC vantage_core PRIVATE fcl urdfdom::urdfdom_model)
+
 vantage_require(full fmt)
 vantage_require(full nlohmann_json)
 vantage_require(full yaml-cpp)
@@ -18,7 +23,7 @@ vantage_require(full liblzf)
 vantage_require(full ZLIB)
 vantage_library(full reconstruction io experiments)
 target_link_libraries(vantage_full
-  PUBLIC vantage_core vantage_registration vantage_simulation nlohmann_json::nlohmann_json
+  PUBLIC vantage_core vantage_registration vantage_simulation vantage_arm nlohmann_json::nlohmann_json
   PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf ZLIB::ZLIB)
 include(VantageViewer)
 target_sources(vantage_full PRIVATE ${vantage_viewer_source})

@@ -11,6 +11,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/io/map_file.hpp"
 #include "vantage/io/ranked_views.hpp"
+#include "vantage/io/robot_file.hpp"
 #include "vantage/reconstruction/options.hpp"
 
 namespace vantage::app {
@@ -30,6 +31,7 @@ struct Request {
   int top = 10;
   Place place;
   ReconstructOptions options;
+  std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
 };
 
@@ -44,10 +46,10 @@ std::vector<Evaluation> evaluate_all(const VoxelMap& map, const Planner& planner
   std::vector<Resolution> resolutions;
   for (const int i : all) resolutions.push_back(problem.resolution(i, planner.options().rays));
   std::vector<Evaluation> evaluations = problem.evaluate(all, resolutions);
-  for (Evaluation& each : evaluations) {
-    const auto reason = why_infeasible(map, each.view, planner.options().reach);
-    each.feasible = !reason;
-    each.reason = reason.value_or("");
+  const std::vector<std::optional<std::string>> reasons = planner.why_infeasible_now(map, current);
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    evaluations[i].feasible = !reasons[i];
+    evaluations[i].reason = reasons[i].value_or("");
   }
   return evaluations;
 }
@@ -66,9 +68,10 @@ void print_labels(const VoxelMap& map) {
   fmt::print(" mean quality {:.3f}\n\n", map.mean_quality());
 }
 
-void evaluate(const Request& request) {
+void evaluate(Request& request) {
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
+  load_robot(request.options, request.given);
   const VoxelMap map = read_map(request.map);
   const Planner planner(candidates_from_text(request.options.candidates, map.enclosure_center()),
                         request.options.range_camera(), request.options.planner_options());
@@ -91,9 +94,10 @@ void add_evaluate(CLI::App& program) {
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
   std::vector<OptionField> fields = option_fields(request->place);
   for (OptionField& field : fields_named(option_fields(request->options), planning_option_names())) {
-    if (field.name != "deadline") fields.push_back(std::move(field));  // it evaluates every candidate
+    if (field.name != "deadline" && field.name != "travel")
+      fields.push_back(std::move(field));  // it evaluates every candidate
   }
-  add_options(*command, std::as_const(fields));
+  add_options(*command, noting(std::move(fields), request->given));
   add_program_options(*command, request->program);
   command->callback([request] { evaluate(*request); });
 }

@@ -11,6 +11,7 @@
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/io/ranked_views.hpp"
+#include "vantage/io/robot_file.hpp"
 #include "vantage/io/run_folder.hpp"
 #include "vantage/io/scan_planning_options.hpp"
 #include "vantage/reconstruction/scan_model.hpp"
@@ -28,6 +29,7 @@ struct Request {
   int top = 10;
   bool report = true;
   ScanPlanningOptions options;
+  std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
 };
 
@@ -49,6 +51,7 @@ void plan(Request& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
+  load_robot(request.options.planning, request.given);
   const ScanSet set = open_scans(request.scans, request.options.reading);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
@@ -96,7 +99,7 @@ void add_plan(CLI::App& program) {
                       "folder for the model, the map and the report; nothing is written without");
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
   command->add_flag("--report,!--no-report", request->report, "write mesh.ply and report.html");
-  add_options(*command, option_fields(request->options));
+  add_options(*command, noting(option_fields(request->options), request->given));
   add_program_options(*command, request->program);
   command->callback([request] { plan(*request); });
 }

@@ -35,6 +35,17 @@ void print_record(std::FILE* out, const ScanRecord& record) {
       record.new_occupied, record.merged ? "" : "  NOT MERGED");
 }
 
+void print_move(const Move& move) {
+  fmt::print("  the way there costs {:.3f} and has {} places:\n", move.cost, move.path.size());
+  for (const RobotState& state : move.path) {
+    const Vec3 at = state.view.position();
+    fmt::print("    sensor at {:.3f} {:.3f} {:.3f}", at.x(), at.y(), at.z());
+    if (state.joints.size() > 0) fmt::print(", joints");
+    for (const double joint : state.joints) fmt::print(" {:.4f}", joint);
+    fmt::print("\n");
+  }
+}
+
 void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, int top) {
   if (!plan) {
     fmt::print("nothing left to plan: {}\n", why_finished);
@@ -42,8 +53,10 @@ void print_plan(const std::optional<Plan>& plan, const std::string& why_finished
   }
   const std::array<double, 7> pose = pose_numbers(plan->best.view.world_from_sensor);
   fmt::print("next best view: {}\n  {}\n", plan->best.candidate, plan->explanation);
-  fmt::print("  pose (x y z qx qy qz qw, world from sensor): {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}\n\n",
+  fmt::print("  pose (x y z qx qy qz qw, world from sensor): {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}\n",
              pose[0], pose[1], pose[2], pose[3], pose[4], pose[5], pose[6]);
+  if (plan->move.possible()) print_move(plan->move);
+  fmt::print("\n");
   std::vector<Evaluation> all = plan->ranking;
   all.insert(all.end(), plan->infeasible.begin(), plan->infeasible.end());
   print_views(all, top);

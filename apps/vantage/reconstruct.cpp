@@ -11,6 +11,7 @@
 #include "page_server.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/io/robot_file.hpp"
 #include "vantage/io/run_folder.hpp"
 #include "vantage/io/run_log.hpp"
 #include "vantage/reconstruction/simulate.hpp"
@@ -29,6 +30,7 @@ struct Request {
   std::string serve;  // the port; empty: not served
   PageServerOptions server;
   ReconstructOptions options;
+  std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
 };
 
@@ -108,18 +110,19 @@ void print_result(const Request& request, const RunFolder& folder, const RunSumm
   }
   const ScanRecord& last = model.scans.back();
   fmt::print(
-      "{}: {} scans, {:.2f} % of the visible surface, {} occupied voxels, quality {:.3f}, {:.2f} m travelled, {:.2f} "
+      "{}: {} scans, {:.2f} % of the visible surface, {} occupied voxels, quality {:.3f}, {:.2f} {} travelled, {:.2f} "
       "s\n",
       summary.object, model.scans.size(), 100 * last.coverage.value_or(0), last.labels.occupied, last.mean_quality,
-      last.distance, seconds);
+      last.distance, request.options.travel_unit(), seconds);
   fmt::print("{}: {}\n", summary.stop_reason == "interrupted" ? "kept what was scanned" : "finished",
              summary.stop_reason);
   fmt::print("written to {}{}\n", folder.path().string(), request.report ? "; open report.html there" : "");
 }
 
-void reconstruct(const Request& request) {
+void reconstruct(Request& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
+  load_robot(request.options, request.given);
   request.options.validate();
   const ObjectSource source = find_object(request.object);
   const SimulatedObject object(source.mesh, request.options.size.value_or(source.default_size), request.options);
@@ -163,7 +166,7 @@ void add_reconstruct(CLI::App& program) {
   command->add_flag("--serve{8350}", request->serve,
                     "show the run in the browser while it goes on, until Ctrl-C; --serve=PORT, 0: any free one");
   add_page_server_options(*command, request->server);
-  add_options(*command, request->options);
+  add_options(*command, noting(option_fields(request->options), request->given));
   add_program_options(*command, request->program);
   command->callback([request] { reconstruct(*request); });
 }

@@ -27,6 +27,16 @@ nlohmann::ordered_json view_json(const Evaluation& e) {
           {"utility", e.utility}};
 }
 
+nlohmann::ordered_json move_json(const Move& move) {
+  nlohmann::ordered_json json{{"cost", move.cost}, {"path", nlohmann::ordered_json::array()}};
+  for (const RobotState& state : move.path) {
+    nlohmann::ordered_json place{{"pose", pose_numbers(state.view.world_from_sensor)}};
+    if (state.joints.size() > 0) place["joints"] = std::vector<double>(state.joints.begin(), state.joints.end());
+    json["path"].push_back(std::move(place));
+  }
+  return json;
+}
+
 nlohmann::ordered_json ranked_views_json(const std::optional<Plan>& plan, const std::string& why_finished,
                                          std::span<const ScanRecord> scans, int top) {
   const auto with_pose = [](const Evaluation& evaluation) {
@@ -36,6 +46,7 @@ nlohmann::ordered_json ranked_views_json(const std::optional<Plan>& plan, const 
   };
   nlohmann::ordered_json json;
   json["next"] = plan ? with_pose(plan->best) : nlohmann::ordered_json(nullptr);
+  json["move"] = plan && plan->move.possible() ? move_json(plan->move) : nlohmann::ordered_json(nullptr);
   json["explanation"] = plan ? plan->explanation : why_finished;
   // A deadline, like multi-resolution, evaluates fewer to the end than could be chosen.
   json["evaluated"] = plan ? plan->ranking.size() : 0;

@@ -1,5 +1,7 @@
 #include "vantage/io/scan_planning_options.hpp"
 
+#include "vantage/io/robot_file.hpp"
+
 namespace vantage {
 
 void ScanPlanningOptions::validate() const {
@@ -18,7 +20,14 @@ RangeCamera ScanPlanningOptions::camera(const std::optional<RangeCamera>& of_sca
 }
 
 Planner ScanPlanningOptions::planner(const Candidates& candidates, const std::optional<RangeCamera>& of_scans) const {
-  return Planner(candidates, camera(of_scans), planning.planner_options());
+  ReconstructOptions options = planning;
+  if (options.robot && !options.robot_model) {
+    // Options that come with the robot were applied, or not, when these ones were made.
+    std::set<std::string> given;
+    for (const OptionField& field : option_fields(options)) given.insert(field.name);
+    load_robot(options, given);
+  }
+  return Planner(candidates, camera(of_scans), options.planner_options());
 }
 
 std::vector<OptionField> option_fields(ScanPlanningOptions& options) {

@@ -96,6 +96,8 @@ std::vector<std::string> planning_option_names() {
           "body-radius",
           "workspace",
           "obstacles",
+          "robot",
+          "travel",
           "search",
           "rays",
           "multi-resolution-b",
@@ -144,12 +146,14 @@ PlannerOptions ReconstructOptions::planner_options() const {
   result.multi_resolution = {multi_resolution_b, multi_resolution_stages, multi_resolution_columns};
   result.utility = utility;
   result.factors = {alpha_oc, alpha_op, rho, navigation};
-  result.reach.body_radius = body_radius;
-  if (workspace) {
-    const std::vector<double> n = numbers_from_text("workspace", *workspace, 6);
-    result.reach.workspace = Box3(Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]));
+  result.reach = reach_options();
+  result.robot = robot_model;
+  if (travel) {
+    require_one_of("travel", *travel, {"orthodromic", "straight", "path"});
+    result.travel = *travel == "path"       ? TravelKind::path
+                    : *travel == "straight" ? TravelKind::straight
+                                            : TravelKind::orthodromic;
   }
-  if (obstacles) result.reach.obstacles = boxes_from_text("obstacles", *obstacles);
   if (convolve != "off") {
     result.believed_error = believed_error_model(center);
     result.error_method = convolve == "samples" ? ErrorMethod::samples : ErrorMethod::convolution;
@@ -159,6 +163,21 @@ PlannerOptions ReconstructOptions::planner_options() const {
   result.stop_occplane = stop_occplane;
   result.deadline = deadline;
   return result;
+}
+
+ReachOptions ReconstructOptions::reach_options() const {
+  ReachOptions result;
+  result.body_radius = body_radius;
+  if (workspace) {
+    const std::vector<double> n = numbers_from_text("workspace", *workspace, 6);
+    result.workspace = Box3(Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]));
+  }
+  if (obstacles) result.obstacles = boxes_from_text("obstacles", *obstacles);
+  return result;
+}
+
+std::string ReconstructOptions::travel_unit() const {
+  return travel == "path" && robot_model ? robot_model->cost_unit() : "m";
 }
 
 Budget ReconstructOptions::budget() const {

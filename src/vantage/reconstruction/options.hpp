@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,6 +33,9 @@ struct ReconstructOptions : ErrorOptions {
   double body_radius = 0;
   std::optional<std::string> workspace;
   std::optional<std::string> obstacles;
+  std::optional<std::string> robot;  // a file; see load_robot
+  std::optional<std::string> travel;
+  std::shared_ptr<const RobotModel> robot_model;  // what load_robot made of the file; no option
 
   std::string search = "exhaustive";
   std::string rays = "sensor";
@@ -59,6 +63,9 @@ struct ReconstructOptions : ErrorOptions {
   [[nodiscard]] SceneOptions scene_options() const;
   [[nodiscard]] RangeCamera range_camera() const;
   [[nodiscard]] PlannerOptions planner_options() const;
+  [[nodiscard]] ReachOptions reach_options() const;
+  /// What distances are counted in: metres, or radians where the path of an arm or a turntable is asked for.
+  [[nodiscard]] std::string travel_unit() const;
   [[nodiscard]] Budget budget() const;
   [[nodiscard]] QualityReference quality_reference() const;
   [[nodiscard]] SimulatedRobotOptions robot_options() const;
@@ -88,6 +95,9 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("body-radius", o.body_radius, "m", "radius of the robot's body around the sensor");
   field("workspace", o.workspace, "m", "box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given");
   field("obstacles", o.obstacles, "m", "solid boxes cx,cy,cz,sx,sy,sz separated by ';'");
+  field("robot", o.robot, "", "YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md");
+  field("travel", o.travel, "",
+        "what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight");
   field("search", o.search, "", "exhaustive or multi-resolution");
   field("rays", o.rays, "", "rays of the exhaustive search: sensor, ideal or COLUMNSxROWS");
   field("multi-resolution-b", o.multi_resolution_b, "", "b of eq. 16");

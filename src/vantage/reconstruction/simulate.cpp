@@ -47,6 +47,8 @@ SimulatedObject::SimulatedObject(const TriangleMesh& mesh, double size, const Re
 
 SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& options, const RunObserver& observer) {
   options.validate();
+  require(!options.robot || options.robot_model, "robot = '", options.robot.value_or(""),
+          "': the file has not been read; call load_robot first");
   SimulatedRun run{ObjectModel(options.scene_options(), options.point_spacing()), {}};
   Planner planner(options.candidate_views(), options.range_camera(), options.planner_options());
   const ReachOptions reach = options.planner_options().reach;

@@ -1,0 +1,84 @@
+#include "vantage/arm/arm_description.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/sample_arm.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+Box3 no_mesh(const std::string&) { return {}; }
+
+std::string error_of(const std::string& urdf, const std::string& sensor = "tool") {
+  try {
+    (void)arm_from_urdf(urdf, "a.urdf", sensor, no_mesh);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A root, a joint as given, and a tool.
+std::string urdf_with(const std::string& joint, const std::string& tool = "") {
+  return "<robot name='r'><link name='root'/><link name='tool'>" + tool + "</link><joint name='j' type='" + joint +
+         "<parent link='root'/><child link='tool'/></joint></robot>";
+}
+
+TEST(ArmDescription, ReadsTheSample) {
+  const ArmDescription arm = test::sample_arm();
+  ASSERT_EQ(arm.joints.size(), 6U);
+  EXPECT_EQ(arm.joints[2].name, "elbow");
+  EXPECT_EQ(arm.joints[2].axis, Vec3::UnitY());
+  EXPECT_EQ(arm.joints[2].upper, 2.9);
+  EXPECT_TRUE(arm.joints[1].previous_from_joint.translation().isApprox(Vec3(0, 0.14, 0)));
+  ASSERT_EQ(arm.bodies.size(), 8U) << "the optical frame has no solid";
+  EXPECT_EQ(arm.bodies[2].link, "upper_arm");
+  EXPECT_EQ(arm.bodies[2].shapes.size(), 3U);
+  EXPECT_EQ(arm.bodies.back().joint, 5);
+  EXPECT_EQ(arm.joined.size(), 7U);
+  // The lens looks along the flange's y axis.
+  EXPECT_TRUE(arm.last_from_sensor.linear().col(2).isApprox(Vec3::UnitY()));
+  EXPECT_TRUE(arm.last_from_sensor.translation().isApprox(Vec3(0, 0.11, 0)));
+}
+
+TEST(ArmDescription, TakesTheBoxAroundAMesh) {
+  const std::string tool =
+      "<collision><origin xyz='1 0 0'/><geometry><mesh filename='m.stl' scale='0.001 0.001 "
+      "0.001'/></geometry></collision>";
+  const ArmDescription arm =
+      arm_from_urdf(urdf_with("continuous'><axis xyz='0 0 2'/>", tool), "a.urdf", "tool", [](const std::string& file) {
+        EXPECT_EQ(file, "m.stl");
+        return Box3(Vec3(0, 0, 0), Vec3(100, 200, 300));
+      });
+  ASSERT_EQ(arm.bodies.size(), 1U);
+  EXPECT_TRUE(arm.bodies[0].shapes[0].size.isApprox(Vec3(0.1, 0.2, 0.3)));
+  EXPECT_TRUE(arm.bodies[0].shapes[0].joint_from_shape.translation().isApprox(Vec3(1.05, 0.1, 0.15)));
+  EXPECT_EQ(arm.joints[0].axis, Vec3::UnitZ());
+}
+
+TEST(ArmDescription, SaysWhatIsWrong) {
+  const std::string good =
+      urdf_with("revolute'><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/>");
+  EXPECT_EQ(error_of(good), "no error");
+  EXPECT_THAT(error_of(""), HasSubstr("a.urdf: not a robot description"));
+  EXPECT_THAT(error_of("<robot"), HasSubstr("a.urdf: not a robot description"));
+  EXPECT_THAT(error_of("{}"), HasSubstr("a.urdf: not a robot description"));
+  EXPECT_EQ(error_of(good, "hand"), "a.urdf: there is no link 'hand' to carry the sensor; the links are root, tool");
+  EXPECT_EQ(error_of(urdf_with("fixed'>")), "a.urdf: no joint between the root link 'root' and 'tool' can move");
+  EXPECT_EQ(error_of(urdf_with("floating'>")),
+            "a.urdf: joint 'j': is neither fixed nor revolute, continuous or prismatic");
+  EXPECT_THAT(error_of(urdf_with("revolute'><axis xyz='0 0 1'/><limit lower='1' upper='-1' effort='1' velocity='1'/>")),
+              HasSubstr("joint 'j': its limits 1 .. -1 are not in ascending order"));
+  EXPECT_THAT(error_of(urdf_with("continuous'><axis xyz='0 0 0'/>")),
+              HasSubstr("joint 'j': its axis has no direction"));
+  EXPECT_THAT(error_of(urdf_with("continuous'><axis xyz='0 0 1'/>",
+                                 "<collision><geometry><sphere radius='-1'/></geometry></collision>")),
+              HasSubstr("link 'tool'"));
+}
+
+}  // namespace
+}  // namespace vantage
