@@ -15,10 +15,16 @@ Random noise_stream(std::uint64_t seed, std::uint64_t move) { return Random(seed
 
 View perturbed(const View& commanded, const PoseError& error, Random& random) {
   error.validate();
-  Eigen::Matrix<double, 6, 1> normal = Eigen::Matrix<double, 6, 1>::Zero();
-  normal.head<3>() = random.normal3();
-  if (!error.keeps_orientation()) normal.tail<3>() = random.normal3();
-  return displaced(commanded, error.mean + root_of(error.covariance) * normal);
+  PoseError::Vector drawn = error.mean;
+  if (error.keeps_orientation()) {
+    drawn.head<3>() += root_of(error.position().covariance) * random.normal3();
+  } else {
+    PoseError::Vector normal;
+    normal.head<3>() = random.normal3();
+    normal.tail<3>() = random.normal3();
+    drawn += root_of(error.covariance) * normal;
+  }
+  return displaced(commanded, drawn);
 }
 
 void SimulatedRobotOptions::validate() const { depth_noise.validate(); }
