@@ -50,10 +50,16 @@ void time_box(benchmark::State& state) {
       const VoxelMap& map = map_after_scans(scans);
       const VisibilityEvaluator visibility(map);
       const Travel travel{Travel::Path::orthodromic, Vec3::Zero(), 2};
-      const ViewEvaluation problem{visibility, camera,
-                                   candidates, map.grid().length,
-                                   travel,     scan_views()[static_cast<std::size_t>(scans - 1)],
-                                   {},         [](const Visibility&, const Factors& f) { return combined_utility(f); }};
+      const ViewEvaluation problem{
+          map,
+          visibility,
+          camera,
+          candidates,
+          map.grid().length,
+          travel,
+          scan_views()[static_cast<std::size_t>(scans - 1)],
+          {},
+          {.score = CountUtility([](const Visibility&, const Factors& f) { return combined_utility(f); })}};
       const std::vector<Evaluation> all = problem.evaluate(indices, std::span(&camera.resolution, 1));
       const std::vector<double> found = shares(ViewQueue(candidates, indices), all);
       for (std::size_t i : {0, 1}) {

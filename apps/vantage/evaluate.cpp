@@ -38,9 +38,16 @@ struct Request {
 /// Every candidate, infeasible ones too, in the order of their indices.
 std::vector<Evaluation> evaluate_all(const VoxelMap& map, const Planner& planner, const View& current) {
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{
-      visibility,       planner.camera(), planner.candidates(),      map.grid().length,
-      planner.travel(), current,          planner.options().factors, utility_by_name(planner.options().utility)};
+  const Utility utility = utility_by_name(planner.options().utility);
+  const ViewEvaluation problem{map,
+                               visibility,
+                               planner.camera(),
+                               planner.candidates(),
+                               map.grid().length,
+                               planner.travel(),
+                               current,
+                               planner.options().factors,
+                               utility};
   std::vector<int> all(planner.candidates().views.size());
   std::iota(all.begin(), all.end(), 0);
   std::vector<Resolution> resolutions;

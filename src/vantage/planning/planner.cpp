@@ -62,24 +62,20 @@ void PlannerOptions::validate() const {
           "not with multi-resolution, which evaluates only some views to the end; sampled poses go with both");
 }
 
-std::vector<std::string> utility_names() { return {"combined", "gua"}; }
-
-Utility utility_by_name(const std::string& name) {
-  if (name == "combined") return [](const Visibility&, const Factors& f) { return combined_utility(f); };
-  if (name == "gua") return [](const Visibility&, const Factors& f) { return gua_utility(f); };
-  std::string known;
-  for (const std::string& each : utility_names()) known += (known.empty() ? "" : ", ") + each;
-  throw InputError(concat("utility '", name, "' is unknown; must be one of: ", known));
-}
-
 Planner::Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options)
-    : candidates_(std::move(candidates)),
-      camera_(camera),
-      options_(options),
-      utility_(utility_by_name(options.utility)) {
+    : Planner(std::move(candidates), camera, options, utility_by_name(options.utility)) {}
+
+Planner::Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options, Utility utility)
+    : candidates_(std::move(candidates)), camera_(camera), options_(options), utility_(std::move(utility)) {
   camera_.validate();
   options_.validate();
   require(!candidates_.views.empty(), "candidates: there are none");
+  require(!utility_.needs_all_views || options_.search == SearchKind::exhaustive, "utility '", options_.utility,
+          "' compares all views: use it with the exhaustive search, not with multi-resolution");
+  require(!utility_.needs_all_views || options_.deadline == 0, "utility '", options_.utility,
+          "' compares all views: it cannot be used with a deadline");
+  require(!utility_.needs_all_views || !options_.believed_error, "utility '", options_.utility,
+          "' compares all views: the robot's error cannot be planned for with it; leave convolve off");
   require(options_.travel != TravelKind::orthodromic || candidates_.kind == Candidates::Kind::sphere,
           "travel = orthodromic: needs candidates on a sphere; use straight or path");
   // The navigation factor is made for a sphere (spec, section 4), unless the user says what moves are counted by.
@@ -103,6 +99,7 @@ Travel Planner::travel() const {
 std::optional<std::string> Planner::why_excluded(const VoxelMap& map, int candidate) const {
   if (const auto found = discarded_.find(candidate); found != discarded_.end()) return found->second;
   if (const auto found = set_aside_.find(candidate); found != set_aside_.end()) return found->second;
+  if (utility_.skips_scanned_views && scanned_candidates_.count(candidate) > 0) return "has been scanned from";
   return why_infeasible(map, candidates_.views[static_cast<std::size_t>(candidate)], options_.reach);
 }
 
@@ -159,9 +156,9 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   }
 
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{visibility,        camera_,  candidates_,
-                               map.grid().length, travel(), current,
-                               options_.factors,  utility_, moves.normalised_costs(feasible)};
+  const ViewEvaluation problem{map,      visibility,   camera_,          candidates_, map.grid().length,
+                               travel(), current,      options_.factors, utility_,    moves.normalised_costs(feasible),
+                               scanned_, options_.seed};
   plan.feasible = feasible.size();
   plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
@@ -201,9 +198,9 @@ std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& curre
   plan.move = {};
   Moves moves(options_, candidates_, travel(), map, state_behind(current));
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{visibility,        camera_,  candidates_,
-                               map.grid().length, travel(), current,
-                               options_.factors,  utility_, moves.normalised_costs(ranked)};
+  const ViewEvaluation problem{map,      visibility,   camera_,          candidates_, map.grid().length,
+                               travel(), current,      options_.factors, utility_,    moves.normalised_costs(ranked),
+                               scanned_, options_.seed};
   return settled(std::move(plan), moves, problem);
 }
 
@@ -247,6 +244,11 @@ void Planner::arrived(const Plan& plan) {
 double Planner::distance_of(const Plan& plan, const Vec3& from) const {
   if (options_.travel == TravelKind::path) return plan.move.cost;
   return travel().distance(from, plan.best.view.position());
+}
+
+void Planner::scanned(const View& view, int candidate) {
+  scanned_.push_back(view);
+  if (candidate >= 0) scanned_candidates_.insert(candidate);
 }
 
 void Planner::discard(int candidate, const std::string& reason) { discarded_[candidate] = reason; }

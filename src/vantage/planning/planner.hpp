@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "vantage/robot/robot_model.hpp"
 #include "vantage/search/expected_utility.hpp"
 #include "vantage/search/search.hpp"
+#include "vantage/utility/registry.hpp"
 
 namespace vantage {
 
@@ -45,13 +47,10 @@ struct PlannerOptions {
   /// Milliseconds after which a plan is made of the views evaluated until then (search_until); 0: evaluate all. Needs
   /// the exhaustive search without the robot's error. What is planned then depends on the clock.
   double deadline = 0;
+  std::uint64_t seed = 1;  // of utilities that draw
 
   void validate() const;
 };
-
-/// `combined` (eq. 13) or `gua` (eq. 21). Throws InputError that lists the names.
-[[nodiscard]] Utility utility_by_name(const std::string& name);
-[[nodiscard]] std::vector<std::string> utility_names();
 
 /// The next best view with all that led to it.
 struct Plan {
@@ -67,6 +66,8 @@ struct Plan {
 class Planner {
  public:
   Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options = {});
+  /// With a utility of one's own instead of the one that the options name.
+  Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options, Utility utility);
 
   /// The best view to take next from `current`, or nothing where no feasible view meets an occplane voxel any more;
   /// why_finished() then says so.
@@ -94,6 +95,8 @@ class Planner {
   void map_changed() { set_aside_.clear(); }
   /// From now on the robot is believed to err like this. Nothing changes where errors are not planned for.
   void believe(const PoseError& error);
+  /// A scan from this view was merged. `candidate` is -1 where it is none of the candidates.
+  void scanned(const View& view, int candidate);
 
   [[nodiscard]] const std::string& why_finished() const { return why_finished_; }
   [[nodiscard]] const Candidates& candidates() const { return candidates_; }
@@ -119,6 +122,8 @@ class Planner {
   PlannerOptions options_;
   Utility utility_;
   std::map<int, std::string> discarded_, set_aside_;
+  std::vector<View> scanned_;
+  std::set<int> scanned_candidates_;
   std::string why_finished_;
   std::optional<RobotState> state_;  // after the last move that was planned
 };

@@ -88,6 +88,12 @@ RayChoice rays_from_text(const std::string& text) {
   return {RayChoice::Kind::fixed, resolution_from_text("rays", text)};
 }
 
+std::string names_of_utilities() {
+  std::string list;
+  for (const std::string& name : utility_names()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 std::vector<std::string> planning_option_names() {
   return {"camera",
           "depth-range",
@@ -145,6 +151,7 @@ PlannerOptions ReconstructOptions::planner_options() const {
   result.rays = rays_from_text(rays);
   result.multi_resolution = {multi_resolution_b, multi_resolution_stages, multi_resolution_columns};
   result.utility = utility;
+  result.seed = seed;
   result.factors = {alpha_oc, alpha_op, rho, navigation};
   result.reach = reach_options();
   result.robot = robot_model;

@@ -75,6 +75,9 @@ struct ReconstructOptions : ErrorOptions {
   [[nodiscard]] double point_spacing() const { return voxel / 4; }
 };
 
+/// The names of the utilities, separated by commas.
+[[nodiscard]] std::string names_of_utilities();
+
 /// The one description that serves the YAML file, the command line and the documents: name, member, unit, meaning.
 template <class Field>
 void describe(ReconstructOptions& o, Field&& field) {
@@ -103,7 +106,7 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("multi-resolution-b", o.multi_resolution_b, "", "b of eq. 16");
   field("multi-resolution-stages", o.multi_resolution_stages, "", "k; by default the smallest with b^k >= |V|");
   field("multi-resolution-columns", o.multi_resolution_columns, "", "columns of the coarsest stage, R_min");
-  field("utility", o.utility, "", "combined (eq. 13) or gua (eq. 21)");
+  field("utility", o.utility, "", "how views are judged: " + names_of_utilities());
   field("alpha-oc", o.alpha_oc, "", "desired share of occupied voxels, eq. 7");
   field("alpha-op", o.alpha_op, "", "desired share of occplane voxels, eq. 7");
   field("rho", o.rho, "", "navigation factor of the farthest view, eq. 10");

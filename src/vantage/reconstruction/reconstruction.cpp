@@ -80,6 +80,7 @@ void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, 
   }
   if (record.merged) {
     planner_.map_changed();
+    planner_.scanned(record.registered, candidate);
   } else {
     planner_.set_aside(candidate, concat("its scan could not be registered: ", record.verdict));
   }

@@ -45,12 +45,14 @@ SimulatedObject::SimulatedObject(const TriangleMesh& mesh, double size, const Re
                                          visibility_views(options.candidate_views()));
 }
 
-SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& options, const RunObserver& observer) {
+SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& options, const RunObserver& observer,
+                      const std::optional<Utility>& utility) {
   options.validate();
   require(!options.robot || options.robot_model, "robot = '", options.robot.value_or(""),
           "': the file has not been read; call load_robot first");
   SimulatedRun run{ObjectModel(options.scene_options(), options.point_spacing()), {}};
-  Planner planner(options.candidate_views(), options.range_camera(), options.planner_options());
+  Planner planner(options.candidate_views(), options.range_camera(), options.planner_options(),
+                  utility ? *utility : utility_by_name(options.utility));
   const ReachOptions reach = options.planner_options().reach;
   SimulatedRobot robot(object.scanner(), options.range_camera(), options.robot_options(), options.seed,
                        [&](const View& view) { return !why_infeasible(run.model.map, view, reach); });

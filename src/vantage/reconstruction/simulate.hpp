@@ -35,8 +35,9 @@ struct SimulatedRun {
   std::string stop_reason;
 };
 
-/// A whole reconstruction in simulation (Algorithm 1), as the options say.
+/// A whole reconstruction in simulation (Algorithm 1), as the options say; with `utility`, if there is one, instead of
+/// the one that they name.
 [[nodiscard]] SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& options,
-                                    const RunObserver& observer = {});
+                                    const RunObserver& observer = {}, const std::optional<Utility>& utility = {});
 
 }  // namespace vantage

@@ -40,7 +40,8 @@ VoxelMap half_known_ball() {
 class ExpectedUtility : public testing::Test {
  protected:
   [[nodiscard]] ViewEvaluation problem(const Candidates& candidates) const {
-    return {visibility, camera, candidates, map.grid().length, Travel{}, candidates.views.front(), options, utility};
+    return {map,     visibility, camera, candidates, map.grid().length, Travel{}, candidates.views.front(),
+            options, utility};
   }
   [[nodiscard]] std::vector<Evaluation> evaluate_all(const ViewEvaluation& asked) const {
     std::vector<int> all(asked.candidates.views.size());
@@ -52,7 +53,7 @@ class ExpectedUtility : public testing::Test {
   VisibilityEvaluator visibility{map};
   RangeCamera camera = camera_from_apertures(radians(45), radians(45), {40, 40});
   UtilityOptions options{.navigation = false};
-  Utility utility = [](const Visibility&, const Factors& f) { return combined_utility(f); };
+  Utility utility{.score = CountUtility([](const Visibility&, const Factors& f) { return combined_utility(f); })};
 };
 
 TEST_F(ExpectedUtility, OfTheCellsAroundACandidateIsConvolutionAfterEvaluation) {

@@ -43,16 +43,33 @@ Evaluation ViewEvaluation::evaluation(int candidate, Resolution rays, const Visi
   result.view = candidates.views[static_cast<std::size_t>(candidate)];
   result.resolution = rays;
   result.seen = seen;
-  return with_cost(std::move(result), normalised_costs.empty()
-                                          ? travel.normalised(current.position(), result.view.position())
-                                          : normalised_costs[static_cast<std::size_t>(candidate)]);
+  return with_cost(std::move(result), normalised_cost(candidate));
 }
 
-Evaluation ViewEvaluation::with_cost(Evaluation result, double normalised_cost) const {
-  result.factors = factors(result.seen, normalised_cost, options);
-  result.utility = utility(result.seen, result.factors);
-  result.score = result.utility;
+double ViewEvaluation::normalised_cost(int candidate) const {
+  if (!normalised_costs.empty()) return normalised_costs[static_cast<std::size_t>(candidate)];
+  return travel.normalised(current.position(), candidates.views[static_cast<std::size_t>(candidate)].position());
+}
+
+Evaluation ViewEvaluation::with_cost(Evaluation result, double cost) const {
+  result.factors = factors(result.seen, cost, options);
+  // What is judged by other things than counts keeps its utility.
+  if (const auto* by_counts = std::get_if<CountUtility>(&utility.score)) {
+    result.utility = (*by_counts)(result.seen, result.factors);
+    result.score = result.utility;
+  }
   return result;
+}
+
+void ViewEvaluation::score(std::vector<Evaluation>& evaluations) const {
+  std::vector<ViewToJudge> views;
+  views.reserve(evaluations.size());
+  for (const Evaluation& each : evaluations) {
+    views.push_back({each.candidate, each.view, each.resolution, ideal(each.candidate), normalised_cost(each.candidate),
+                     each.seen, each.factors});
+  }
+  const std::vector<double> scores = judge(utility, {map, visibility, camera, current, scanned, seed, views});
+  for (std::size_t i = 0; i < scores.size(); ++i) evaluations[i].score = evaluations[i].utility = scores[i];
 }
 
 std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_indices,
@@ -63,6 +80,7 @@ std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_
   for (std::size_t i = 0; i < seen.size(); ++i) {
     evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], seen[i]));
   }
+  score(evaluations);
   return evaluations;
 }
 
@@ -78,6 +96,8 @@ std::vector<Evaluation> ViewEvaluation::evaluate_until(std::chrono::steady_clock
     if (!seen[i]) continue;
     evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], *seen[i]));
   }
+  score(evaluations);
+  score(evaluations);
   return evaluations;
 }
 

@@ -1,20 +1,16 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "vantage/candidates/candidates.hpp"
 #include "vantage/robot/travel.hpp"
-#include "vantage/utility/factors.hpp"
+#include "vantage/utility/utility.hpp"
 #include "vantage/visibility/visibility.hpp"
 
 namespace vantage {
-
-/// How good a view is, from what it would see. Called once per view.
-using Utility = std::function<double(const Visibility&, const Factors&)>;
 
 /// Which rays a view is evaluated with.
 struct RayChoice {
@@ -50,6 +46,7 @@ struct Evaluation {
 
 /// All that the evaluation of views at one moment needs.
 struct ViewEvaluation {
+  const VoxelMap& map;
   const VisibilityEvaluator& visibility;
   const RangeCamera& camera;
   const Candidates& candidates;
@@ -60,6 +57,8 @@ struct ViewEvaluation {
   Utility utility;
   /// x of eq. 10 per candidate where moves are not counted as `travel` does; else empty.
   std::vector<double> normalised_costs = {};
+  std::span<const View> scanned = {};
+  std::uint64_t seed = 1;
 
   /// The ideal resolution of a candidate (eq. 14), from its distance to the center.
   [[nodiscard]] Resolution ideal(int candidate) const;
@@ -76,6 +75,10 @@ struct ViewEvaluation {
 
  private:
   [[nodiscard]] Evaluation evaluation(int candidate, Resolution resolution, const Visibility& seen) const;
+  /// Fills in utility and score.
+  void score(std::vector<Evaluation>& evaluations) const;
+  /// x of eq. 10 for the move to a candidate.
+  [[nodiscard]] double normalised_cost(int candidate) const;
   [[nodiscard]] std::vector<View> views_of(std::span<const int> candidate_indices) const;
 };
 

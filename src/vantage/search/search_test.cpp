@@ -77,14 +77,16 @@ struct SearchOnHalfBall : public ::testing::Test {
   VisibilityEvaluator visibility{map};
   RangeCamera camera = camera_from_apertures(radians(45), radians(45), {64, 64});
   Candidates candidates = view_sphere(80, 2, Vec3::Zero());
-  ViewEvaluation problem{visibility,
+  Utility utility{.score = CountUtility([](const Visibility&, const Factors& f) { return combined_utility(f); })};
+  ViewEvaluation problem{map,
+                         visibility,
                          camera,
                          candidates,
                          map.grid().length,
                          {Travel::Path::orthodromic, Vec3::Zero(), 2},
                          candidates.views[0],
                          {},
-                         [](const Visibility&, const Factors& f) { return combined_utility(f); }};
+                         utility};
   std::vector<int> all = [] {
     std::vector<int> indices(80);
     for (int i = 0; i < 80; ++i) indices[static_cast<std::size_t>(i)] = i;

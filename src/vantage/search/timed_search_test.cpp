@@ -46,14 +46,16 @@ struct TimedSearch : public ::testing::Test {
   VisibilityEvaluator visibility{map};
   RangeCamera camera = camera_from_apertures(radians(45), radians(45), {64, 64});
   Candidates candidates = view_sphere(320, 2, Vec3::Zero());
-  ViewEvaluation problem{visibility,
-                         camera,
-                         candidates,
-                         map.grid().length,
-                         {Travel::Path::orthodromic, Vec3::Zero(), 2},
-                         candidates.views[0],
-                         {},
-                         [](const Visibility&, const Factors& f) { return combined_utility(f); }};
+  ViewEvaluation problem{
+      map,
+      visibility,
+      camera,
+      candidates,
+      map.grid().length,
+      {Travel::Path::orthodromic, Vec3::Zero(), 2},
+      candidates.views[0],
+      {},
+      {.score = CountUtility([](const Visibility&, const Factors& f) { return combined_utility(f); })}};
   std::vector<int> all = first_candidates(320);
 };
 

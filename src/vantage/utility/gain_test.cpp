@@ -1,0 +1,150 @@
+#include "vantage/utility/gain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "support/random_scenes.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// Steps through unknown voxels to the nearest occupied one, by breadth-first search; -1: none.
+std::map<std::array<int, 3>, int> steps_to_occupied(const VoxelMap& map) {
+  std::map<std::array<int, 3>, int> steps;
+  std::vector<Index3> front = map.occupied_voxels();
+  for (int step = 1; !front.empty(); ++step) {
+    std::vector<Index3> next;
+    for (const Index3& voxel : front) {
+      for (int side = 0; side < 6; ++side) {
+        Index3 at = voxel;
+        at[side / 2] += side % 2 == 0 ? 1 : -1;
+        const Label label = map.label(at);
+        if (label == Label::empty || label == Label::occupied) continue;
+        if (steps.emplace(std::array{at.x(), at.y(), at.z()}, step).second) next.push_back(at);
+      }
+    }
+    front = next;
+  }
+  return steps;
+}
+
+double worth_of(const std::map<std::array<int, 3>, int>& steps, const Index3& voxel, const GainOptions& options) {
+  const auto found = steps.find({voxel.x(), voxel.y(), voxel.z()});
+  if (found == steps.end() || found->second > 7) return options.worth[3];
+  return options.worth[found->second <= 1 ? 0 : found->second <= 3 ? 1 : 2];
+}
+
+/// The definition, with sets of voxels from exact rays.
+std::vector<double> gain_naively(const Choice& choice, const GainOptions& options) {
+  const auto steps = steps_to_occupied(choice.map);
+  using Set = std::set<std::array<int, 3>>;
+  const auto worth = [&](const Set& set) {
+    double sum = 0;
+    for (const auto& [x, y, z] : set) sum += worth_of(steps, {x, y, z}, options);
+    return sum;
+  };
+  std::vector<Set> sets;
+  std::vector<double> worths, overlaps;
+  Set all;
+  for (const ViewToJudge& view : choice.views) {
+    const auto times = [&](int rays) { return static_cast<int>(std::lround(rays * options.rays_per_ideal)); };
+    const Sight sight = see_past_grazing_exactly(choice.map, choice.camera, view.view,
+                                                 {times(view.ideal.columns), times(view.ideal.rows)}, options.grazing);
+    Set set;
+    for (const Index3& voxel : sight.unknown) set.insert({voxel.x(), voxel.y(), voxel.z()});
+    all.insert(set.begin(), set.end());
+    worths.push_back(worth(set));
+    const auto occupied = static_cast<double>(sight.occupied.size());
+    overlaps.push_back(
+        occupied + static_cast<double>(set.size()) > 0 ? occupied / (occupied + static_cast<double>(set.size())) : 0);
+    sets.push_back(std::move(set));
+  }
+  const double whole = worth(all);
+  std::vector<double> scores(sets.size(), 0.0);
+  double floor = options.min_overlap;
+  std::vector<std::size_t> allowed;
+  while (whole > 0 && allowed.empty()) {
+    for (std::size_t v = 0; v < sets.size(); ++v) {
+      if (worths[v] > 0 && overlaps[v] >= floor) allowed.push_back(v);
+    }
+    floor = floor > 1e-3 ? floor * options.floor_step : 0;
+  }
+  const double best = *std::max_element(worths.begin(), worths.end());
+  const bool is_last =
+      whole - best <= options.last_view_share * (whole + static_cast<double>(choice.map.count(Label::occupied)));
+  for (const std::size_t v : allowed) {
+    double next = 0;
+    for (std::size_t u = 0; u < sets.size() && !is_last; ++u) {
+      Set rest;
+      std::set_difference(sets[u].begin(), sets[u].end(), sets[v].begin(), sets[v].end(),
+                          std::inserter(rest, rest.end()));
+      next = std::max(next, worth(rest));
+    }
+    scores[v] = (worths[v] + options.lookahead * next) / whole + options.travel * (1 - choice.views[v].travel);
+  }
+  return scores;
+}
+
+TEST(Gain, GivesWhatItsDefinitionGivesOnRandomScenes) {
+  Random random(41);
+  int compared = 0;
+  int positive = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    const VoxelMap map =
+        test::random_map(random, test::one_of<test::MapKind>(random, {test::MapKind::blobs, test::MapKind::scans}));
+    const VisibilityEvaluator visibility(map);
+    const RangeCamera camera = camera_from_apertures(radians(50), radians(40), {64, 64});
+    std::vector<ViewToJudge> views;
+    for (int i = 0; i < 12; ++i) {
+      ViewToJudge view;
+      view.candidate = i;
+      view.view = test::random_view(map, random, test::Stand::outside);
+      view.ideal = {9 + random.index(20), 9 + random.index(20)};
+      view.travel = random.uniform();
+      views.push_back(view);
+    }
+    const Choice choice{map, visibility, camera, views[0].view, {}, 1, views};
+    GainOptions options;
+    options.min_overlap = random.uniform(0, 0.9);
+    options.last_view_share = random.uniform() < 0.5 ? 0.01 : 0.2;
+    const std::vector<double> expected = gain_naively(choice, options);
+    const std::vector<double> scores = judge(gain_utility(options), choice);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      ASSERT_NEAR(scores[i], expected[i], 1e-12) << "scene " << scene << ", view " << i;
+      ++compared;
+      positive += scores[i] > 0;
+    }
+  }
+  EXPECT_EQ(compared, 60 * 12);
+  EXPECT_GT(positive, 100);
+}
+
+TEST(Gain, CountsStepsThroughUnknownVoxelsOnly) {
+  // Occupied, five unknown, an empty one, two unknown behind it; all around empty.
+  const Grid grid{Vec3::Zero(), 1.0, Index3(9, 1, 1)};
+  VoxelMap map(grid, {Index3::Zero(), Index3(8, 0, 0)});
+  map.set_label({0, 0, 0}, Label::occupied);
+  map.set_label({6, 0, 0}, Label::empty);
+  const auto near = unknown_near_occupied(map);
+  EXPECT_EQ(near[0].words[0], 0b000000010U);
+  EXPECT_EQ(near[1].words[0], 0b000001110U);
+  EXPECT_EQ(near[2].words[0], 0b000111110U) << "the two behind the empty voxel are not reached";
+}
+
+TEST(Gain, NamesBadOptions) {
+  GainOptions options;
+  options.floor_step = 1;
+  EXPECT_THROW((void)gain_utility(options), InputError);
+  options = {};
+  options.worth[2] = -1;
+  EXPECT_THROW((void)gain_utility(options), InputError);
+}
+
+}  // namespace
+}  // namespace vantage
