@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
+#include "vantage/experiments/compare.hpp"
 #include "vantage/experiments/error_experiments.hpp"
 #include "vantage/experiments/tables.hpp"
 #include "vantage/io/options.hpp"
@@ -29,7 +30,9 @@ constexpr Named makers[] = {{"table1", exhaustive_table, true},
                             {"figure11", logo_figure, true},
                             {"orientation", orientation_experiment, false},
                             {"learning", learning_experiment, false},
-                            {"registration", registration_experiment, false}};
+                            {"registration", registration_experiment, false},
+                            {"compare", comparison, false},
+                            {"compare-times", comparison_times, false}};
 
 }  // namespace
 
@@ -38,6 +41,7 @@ void ExperimentOptions::validate() const {
   require(seeds >= 2 && seeds <= 10'000, "seeds = ", seeds, ": must be in 2..10000");
   require(!objects || std::filesystem::is_directory(*objects), "objects = '", objects.value_or(""),
           "': must be a folder of meshes NAME.ply");
+  compare.validate();
 }
 
 std::optional<std::filesystem::path> ExperimentOptions::folder() const {

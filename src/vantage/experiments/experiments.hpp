@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/experiments/compare_options.hpp"
 #include "vantage/experiments/experiment.hpp"
 #include "vantage/experiments/sweep.hpp"
 
@@ -15,6 +16,7 @@ struct ExperimentOptions {
   std::optional<std::string> objects;  // folder with meshes of the paper's objects
   int starts = 10;                     // initial views of tables 1, 2 and 4
   int seeds = 24;                      // paired runs of figures 10 and 11
+  CompareOptions compare;
 
   void validate() const;
   [[nodiscard]] std::optional<std::filesystem::path> folder() const;
@@ -25,6 +27,7 @@ void describe(ExperimentOptions& o, Field&& field) {
   field("objects", o.objects, "", "folder with NAME.ply of the paper's objects; built-in objects if not given");
   field("starts", o.starts, "", "initial views that tables 1, 2 and 4 average over; figure 9 takes at least 20");
   field("seeds", o.seeds, "", "paired runs per method of figures 10 and 11");
+  describe(o.compare, field);
 }
 
 /// The experiments that can be run, in the paper's order.

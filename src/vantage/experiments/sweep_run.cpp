@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "vantage/io/options.hpp"
 
@@ -90,7 +91,9 @@ SweepRun reconstruction_run(const std::string& name, std::shared_ptr<const Sweep
             observer.on_scan = [&](const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan*) {
               add_scan(outcome, record, scan, model);
             };
-            const SimulatedRun run = simulate(*simulated, options, observer);
+            std::optional<Utility> utility;
+            if (extra.utility) utility = extra.utility(*simulated, options);
+            const SimulatedRun run = simulate(*simulated, options, observer, utility);
             if (run.stop_reason == "interrupted") throw RunInterrupted();
             add_totals(outcome, run);
             if (extra.add) extra.add(run, *simulated, outcome);
