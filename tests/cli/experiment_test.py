@@ -79,7 +79,7 @@ class Kills(Sweep):
         """Finished runs by name; every file must be whole."""
         folder = self.folder / "killed" / "runs"
         stored = {}
-        for path in folder.glob("*.json") if folder.exists() else []:
+        for path in folder.glob("[!.]*.json") if folder.exists() else []:
             content = path.read_bytes()
             self.assertIn("outcome", json.loads(content), path.name)
             stored[path.name] = content
@@ -88,25 +88,25 @@ class Kills(Sweep):
     def test_no_finished_run_is_lost(self):
         start = time.monotonic()
         whole = self.run_to_the_end("whole", *self.experiment)
-        seconds = time.monotonic() - start
+        between_runs = (time.monotonic() - start) / 40
         seed = random.randrange(2**32)
         moments = random.Random(seed)
-        before, kills = {}, 0
-        for _ in range(KILLS):
+        before = {}
+        for kill in range(KILLS):
             sweep = subprocess.Popen(self.command("killed", *self.experiment), stdout=subprocess.DEVNULL,
                                      stderr=subprocess.DEVNULL)
-            try:
-                sweep.wait(timeout=moments.uniform(0, 1.5 * seconds / KILLS))
-            except subprocess.TimeoutExpired:
-                sweep.send_signal(signal.SIGKILL)
-                sweep.wait()
-                kills += 1
+            # Each start gets on by a run at least, then ends at any moment of the next ones.
+            while len(self.stored()) <= len(before) and sweep.poll() is None:
+                time.sleep(0.01)
+            time.sleep(moments.uniform(0, 2 * between_runs))
+            self.assertIsNone(sweep.poll(), f"seed {seed}: finished before kill {kill + 1}")
+            sweep.send_signal(signal.SIGKILL)
+            sweep.wait()
             after = self.stored()
             for name, content in before.items():
-                self.assertEqual(after.get(name), content, f"{name} after {kills} kills, seed {seed}")
+                self.assertEqual(after.get(name), content, f"{name} after kill {kill + 1}, seed {seed}")
             before = after
-        self.assertGreaterEqual(kills, 3, f"seed {seed}: the sweep was finished too early to be killed")
-        print(f"{kills} kills, seed {seed}, {len(before)} of 40 runs stored")
+        print(f"{KILLS} kills, seed {seed}, {len(before)} of 40 runs stored")
         self.assertEqual(self.run_to_the_end("killed", *self.experiment), whole, f"seed {seed}")
 
     def test_ctrl_c_keeps_what_is_finished_and_says_how_to_go_on(self):
