@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "vantage/experiments/paper.hpp"
@@ -14,6 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int maps = 5;             // states of the map that plans are timed on: after 1 .. 5 scans
+constexpr int repetitions = 5;      // of each plan
 constexpr double scene_side = 4.1;  // metres
 
 /// A row of table 3 and its times in seconds.
@@ -42,14 +44,20 @@ struct TimedPlan {
   double milliseconds;
 };
 
+/// The least time of several repetitions is what the work takes; more is what else the machine had to do.
 TimedPlan timed_plan(const std::string& search, const ReconstructOptions& options, const VoxelMap& map,
                      const View& current) {
   ReconstructOptions mine = options;
   mine.search = search;
   Planner planner(mine.candidate_views(), mine.range_camera(), mine.planner_options());
-  const auto start = Clock::now();
-  std::optional<Plan> plan = planner.next_best_view(map, current);
-  return {std::move(plan), std::chrono::duration<double, std::milli>(Clock::now() - start).count()};
+  TimedPlan timed{std::nullopt, std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < repetitions; ++i) {
+    const auto start = Clock::now();
+    timed.plan = planner.next_best_view(map, current);
+    timed.milliseconds =
+        std::min(timed.milliseconds, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  return timed;
 }
 
 /// Both searches plan on the same maps; the robot goes where the multi-resolution search says, until nothing is left.
@@ -85,7 +93,8 @@ SweepRun timing_run(const PaperObject& object, const Row& row) {
                                              {"scene", row.scene},
                                              {"enclosure", row.enclosure},
                                              {"candidates", options.candidates},
-                                             {"maps", maps}};
+                                             {"maps", maps},
+                                             {"repetitions", repetitions}};
   SweepRun run{fmt::format("table3, {} voxels, {} views", row.scene, row.views), configuration.dump(),
                [object, options](const Interrupted&) { return plan_both_ways(*object.object, options); }};
   run.place = SweepRun::Place::alone;
@@ -117,11 +126,12 @@ Experiment times_table(const ExperimentOptions& options) {
     table.title = "Table 3: time of one plan";
     table.note = fmt::format(
         "Wall-clock times of this machine on all its cores, nothing else running: they differ from start to start. The "
-        "{}, means over the plans after the first {} scans; exhaustive: the sensor's own 320×320 rays. The paper's "
+        "{}, means over the plans after the first {} scans, each the least of {} repetitions; exhaustive: the sensor's "
+        "own 320×320 rays. The paper's "
         "times "
         "are "
         "those of its authors' laptop.",
-        mug.title(), maps);
+        mug.title(), maps, repetitions);
     table.row_title = "scene and candidates";
     table.columns = {{"multi-resolution [ms]", 2}, {"exhaustive [ms]", 2}, {"exhaustive / multi-resolution", 1}};
     table.content = ExperimentContent::times;

@@ -142,7 +142,7 @@ Experiment utility_surface_figure(const ExperimentOptions& options) {
         "middle. Error: 10 cm per axis. As in eq. 20 the kernel is not normalised, so the heights of the two differ.",
         logo.title(), cells);
     figure.plots = {surface("before convolution", "utility", outcome.list("utility")),
-                    surface("after convolution", "utility convolved", outcome.list("expected"))};
+                    surface("after convolution", "expected", outcome.list("expected"))};
     ExperimentTable table;
     table.name = "figure7-best";
     table.title = "The next best view moves to a safe place";
