@@ -56,7 +56,7 @@ ExperimentReport write_report(const Request& request, const std::vector<Experime
   report.program = fmt::format("vantage {}", VANTAGE_VERSION);
   report.parts = report_parts(experiments, results);
   for (const ExperimentReport::Part& part : report.parts) write_part(folder, part);
-  write_file_atomically(folder / "report.html", html(report));
+  write_file_atomically(folder / "report.html", experiment_page(report));
   write_file_atomically(folder / "report.json", json(only(report, ExperimentContent::results)).dump(2) + "\n");
   const ExperimentReport times = only(report, ExperimentContent::times);
   if (!times.parts.empty()) write_file_atomically(folder / "timings.json", json(times).dump(2) + "\n");

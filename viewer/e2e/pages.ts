@@ -99,5 +99,45 @@ export async function sceneColors(page: Page): Promise<{ blue: number; orange: n
 }
 
 /** Waits until the scene has been drawn with what was set before. */
-export const settle = (page: Page) =>
-  page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => setTimeout(done, 400))));
+export async function settle(page: Page): Promise<void> {
+  await page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => done())));
+  await page.waitForFunction(() => window.vantage?.scene?.viewport.resting ?? true);
+}
+
+/**
+ * Turns the scene until the view of candidate `index` is free, clicks it and gives what the card says: the exact
+ * number behind each line. Null where the view stays hidden.
+ */
+export async function clickView(page: Page, index: number): Promise<Record<string, number> | null> {
+  for (let turn = 0; turn < 12; ++turn) {
+    const at = await page.evaluate((i) => {
+      const { scene } = window.vantage!;
+      const p = scene!.screenOfView(i);
+      const box = scene!.viewport.canvas.getBoundingClientRect();
+      if (!p || document.elementFromPoint(box.left + p.x, box.top + p.y) !== scene!.viewport.canvas) return null;
+      const found = scene!.pick(p.x, p.y);
+      return found?.kind === "view" && found.index === i ? { x: box.left + p.x, y: box.top + p.y } : null;
+    }, index);
+    if (!at) {
+      await page.evaluate(() => window.vantage!.scene!.viewport.orbit(0.55, 0));
+      continue;
+    }
+    await page.mouse.click(at.x, at.y);
+    await page.waitForFunction((i) => document.querySelector(".details-card h3")?.textContent === `View ${i}`, index);
+    return page.$$eval(".details-card dt", (terms) =>
+      Object.fromEntries(terms.map((t) => [t.textContent, Number(t.nextElementSibling!.getAttribute("data-exact"))])),
+    );
+  }
+  return null;
+}
+
+/** The lines of the card and the keys of summary.json that must say the same. */
+export const FACTORS = [
+  ["utility", "utility"],
+  ["f area", "f_area"],
+  ["f navigation", "f_navigation"],
+  ["f quality", "f_quality"],
+  ["f occlusion", "f_occlusion"],
+  ["occplane seen", "n_op"],
+  ["occupied seen", "n_oc"],
+] as const;

@@ -88,7 +88,7 @@ ExperimentReport only(const ExperimentReport& report, ExperimentContent content)
   return part;
 }
 
-std::string html(const ExperimentReport& report) {
+std::string html_body(const ExperimentReport& report) {
   std::string body = fmt::format("<style>\n{}</style>\n<article class=\"report\">\n", report_style());
   body += fmt::format("<p class=\"eyebrow\">Vantage · experiment</p>\n<h1>{}</h1>\n", escape_markup(report.title));
   for (const std::string& paragraph : report.text) body += fmt::format("<p>{}</p>\n", escape_markup(paragraph));
@@ -97,8 +97,9 @@ std::string html(const ExperimentReport& report) {
     if (const auto* table = std::get_if<ExperimentTable>(&part)) body += html_of(*table, ++tables);
     if (const auto* figure = std::get_if<ExperimentFigure>(&part)) body += html_of(*figure, ++figures);
   }
-  body += fmt::format("<footer>{}</footer>\n</article>\n", escape_markup(report.program));
-  return html_page(report.title + " – Vantage", body);
+  return body + fmt::format("<footer>{}</footer>\n</article>\n", escape_markup(report.program));
 }
+
+std::string html(const ExperimentReport& report) { return html_page(report.title + " – Vantage", html_body(report)); }
 
 }  // namespace vantage

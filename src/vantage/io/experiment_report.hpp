@@ -63,6 +63,11 @@ struct ExperimentReport {
 /// The report as one page without script and without other files: tables with the paper's number beside ours, plots
 /// with error bands and the paper's values drawn in.
 [[nodiscard]] std::string html(const ExperimentReport& report);
+/// The same without the page around it.
+[[nodiscard]] std::string html_body(const ExperimentReport& report);
+
+/// report.html of an experiment: the interactive page, with html_body() for readers without JavaScript.
+[[nodiscard]] std::string experiment_page(const ExperimentReport& report);
 
 /// RFC 4180: one row per row of the table. Where a column of the table holds estimates it takes the columns
 /// "TITLE: mean", sd, runs, low, high, paper, band_low, band_high and in_band (1 or 0), else one column. Numbers

@@ -7,6 +7,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/io/markup_test_util.hpp"
+#include "vantage/io/report.hpp"
 
 namespace vantage {
 namespace {
@@ -150,6 +151,23 @@ TEST(ExperimentReport, NamesTheRowThatDoesNotFit) {
         static_cast<void>(html(ExperimentReport{"", "", {}, {table}}));
       },
       ThrowsMessage<InputError>(HasSubstr("table table1, row 'bunny' has 2 cells: must have 3")));
+}
+
+TEST(ExperimentPage, HoldsEveryPlotForThePageAndForReadersWithoutScript) {
+  const std::string page =
+      experiment_page({.title = "all", .program = "vantage", .text = {}, .parts = {small_figure()}});
+  const auto document = document_of_page(page, "page");
+  ASSERT_TRUE(document.has_value());
+  EXPECT_EQ((*document)["format"], "vantage-experiment");
+  const auto& figures = (*document)["figures"];
+  ASSERT_EQ(figures.size(), 5U);
+  EXPECT_EQ(figures[0]["title"], "coverage");
+  EXPECT_EQ(figures[0]["series"][1]["name"], "paper");
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_THAT(figures[i]["svg"].get<std::string>(), HasSubstr("<svg")) << i;
+  EXPECT_EQ(figures[4]["title"], "sphere");
+  for (const auto& figure : figures) EXPECT_EQ(figure["figure"], "All kinds");
+  EXPECT_THAT((*document)["svg_style"].get<std::string>(), HasSubstr(".plot"));
+  EXPECT_THAT(page, HasSubstr("<h1>all</h1>"));
 }
 
 }  // namespace

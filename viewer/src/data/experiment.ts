@@ -10,6 +10,11 @@ export interface Figure {
   y_label: string;
   y_min?: number;
   y_max?: number;
+  /** Of which figure this plot is a part, and what there is to know about it. */
+  figure: string;
+  note: string;
+  /** A finished picture instead of series. */
+  svg: string;
   series: { name: string; x: number[]; y: (number | null)[]; low?: (number | null)[]; high?: (number | null)[]; paper: boolean }[];
 }
 
@@ -27,6 +32,8 @@ export interface Experiment {
   text: string[];
   figures: Figure[];
   tables: Table[];
+  /** Style sheet of the finished pictures. */
+  svg_style: string;
 }
 
 function list(value: unknown, field: string): unknown[] {
@@ -56,7 +63,9 @@ function gappy(value: unknown, field: string, length: number): (number | null)[]
 
 function decodeFigure(value: unknown, field: string): Figure {
   const raw = asObject(value, field);
-  const series = list(raw["series"], `${field}.series`).map((item, i) => {
+  const words = (key: string) => (raw[key] === undefined ? "" : text(raw[key], `${field}.${key}`));
+  const svg = words("svg");
+  const series = (svg ? [] : list(raw["series"], `${field}.series`)).map((item, i) => {
     const at = `${field}.series[${i}]`;
     const s = asObject(item, at);
     const x = numbers(s["x"], `${at}.x`);
@@ -73,8 +82,11 @@ function decodeFigure(value: unknown, field: string): Figure {
   const optional = (key: string) => (typeof raw[key] === "number" ? { [key]: raw[key] as number } : {});
   return {
     title: text(raw["title"], `${field}.title`),
-    x_label: text(raw["x_label"], `${field}.x_label`),
-    y_label: text(raw["y_label"], `${field}.y_label`),
+    x_label: svg ? "" : text(raw["x_label"], `${field}.x_label`),
+    y_label: svg ? "" : text(raw["y_label"], `${field}.y_label`),
+    figure: words("figure"),
+    note: words("note"),
+    svg,
     ...optional("y_min"),
     ...optional("y_max"),
     series,
@@ -108,6 +120,7 @@ export function decodeExperiment(value: unknown): Experiment {
     title: text(raw["title"], "title"),
     text: paragraphs.map((p, i) => text(p, `text[${i}]`)),
     figures: list(raw["figures"] ?? [], "figures").map((f, i) => decodeFigure(f, `figures[${i}]`)),
+    svg_style: typeof raw["svg_style"] === "string" ? raw["svg_style"] : "",
     tables: list(raw["tables"] ?? [], "tables").map((t, i) => decodeTable(t, `tables[${i}]`)),
   };
 }

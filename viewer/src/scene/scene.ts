@@ -24,6 +24,8 @@ export class SceneView {
   private voxels!: VoxelLayer;
   private cameras!: CameraLayer;
   private cloud: CloudLayer | null = null;
+  /** The data that cloud and surface were built from: a live run may bring others. */
+  private builtFrom: { cloud: unknown; mesh: unknown } = { cloud: null, mesh: null };
   private built: Partial<Record<"path" | "frustum" | "normals" | "slice" | "mesh" | "truth", THREE.Object3D>> = {};
   private readonly root = new THREE.Group();
   private readonly marker: THREE.LineSegments;
@@ -224,9 +226,17 @@ export class SceneView {
     this.replace("frustum", layers.frustum ? buildFrustum(run.camera, pose, depth, theme.color("chosen")) : null);
     this.replace("normals", layers.normals ? buildNormals(map, run.grid, this.cut(state)) : null);
     this.replace("slice", slice ? buildSlice(map, run.grid, slice.axis, slice.index) : null);
-    if (layers.mesh !== !!this.built.mesh) this.replace("mesh", layers.mesh && run.mesh ? buildSurface(run.mesh) : null);
+    if (layers.mesh !== !!this.built.mesh || run.mesh !== this.builtFrom.mesh) {
+      this.builtFrom.mesh = run.mesh;
+      this.replace("mesh", layers.mesh && run.mesh ? buildSurface(run.mesh) : null);
+    }
     this.replace("truth", layers.truth && run.truth ? buildGhost(run.truth, theme.color("ghost")) : null);
+    if (this.cloud && run.cloud !== this.builtFrom.cloud) {
+      disposeTree(this.cloud.points);
+      this.cloud = null;
+    }
     if (layers.cloud && run.cloud && !this.cloud) {
+      this.builtFrom.cloud = run.cloud;
       this.cloud = new CloudLayer(run.cloud, run.scans.length);
       this.root.add(this.cloud.points);
     }

@@ -77,6 +77,11 @@ export class Viewport {
     this.resize();
   }
 
+  /** Nothing more will be drawn until something changes. */
+  get resting(): boolean {
+    return !this.pending && !this.moving && !this.quick;
+  }
+
   get canvas(): HTMLCanvasElement {
     return this.renderer.domElement;
   }

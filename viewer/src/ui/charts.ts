@@ -9,6 +9,8 @@ export interface Series {
   values: readonly (number | null)[];
   /** Drawn dashed, to be told apart without colours. */
   dash?: string;
+  /** Single published values: open diamonds without a line. */
+  marks?: boolean;
   /** A band around the line. */
   low?: readonly (number | null)[];
   high?: readonly (number | null)[];
@@ -114,8 +116,14 @@ export function lineChart(series: Series[], options: ChartOptions, onPick: (inde
 }
 
 function swatch(s: Series): SVGElement {
+  if (s.marks) return svg("svg", { width: 16, height: 10, class: "key", "aria-hidden": "true" }, diamond(8, 5, s.color));
   const line = svg("line", { x1: 0, x2: 16, y1: 5, y2: 5, stroke: s.color, "stroke-width": 3, "stroke-dasharray": s.dash ?? null });
   return svg("svg", { width: 16, height: 10, class: "key", "aria-hidden": "true" }, line);
+}
+
+function diamond(x: number, y: number, color: string): SVGElement {
+  const d = `M${x - 5},${y}L${x},${y - 5}L${x + 5},${y}L${x},${y + 5}Z`;
+  return svg("path", { d, fill: "none", stroke: color, "stroke-width": 1.6 });
 }
 
 function drawSeries(
@@ -139,6 +147,12 @@ function drawSeries(
     const lower = s.low.map((v, i) => (v === null ? null : `${px(xs[i])},${py(v)}`)).reverse();
     const points = [...upper, ...lower].filter((p) => p !== null).join(" ");
     parts.push(svg("polygon", { points, fill: s.color, opacity: 0.16 }));
+  }
+  if (s.marks) {
+    s.values.forEach((v, i) => {
+      if (v !== null && Number.isFinite(v)) parts.push(diamond(px(xs[i]), py(v), s.color));
+    });
+    return parts;
   }
   let path = "";
   let pen = "M";

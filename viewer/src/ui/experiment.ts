@@ -8,7 +8,24 @@ import { theme } from "./theme.ts";
 const COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 const DASHES = [undefined, "8 3", "2 3", "10 3 2 3", "5 5", "1 4"];
 
+/** A picture that the program drew. It comes from the same file as this script; scripts in it are dropped all the same. */
+function picture(f: Figure): HTMLElement {
+  const host = h("div", { class: "svg-plot" });
+  host.innerHTML = f.svg;
+  for (const element of host.querySelectorAll("*")) {
+    if (element.localName === "script") element.remove();
+    for (const { name } of [...element.attributes]) if (/^on/i.test(name)) element.removeAttribute(name);
+  }
+  return h("figure", { class: "card" }, host, caption(f));
+}
+
+function caption(f: Figure): HTMLElement | null {
+  const words = [f.figure, f.note].filter((text) => text && text !== f.title).map((text) => text.replace(/\.?$/, "."));
+  return words.length ? h("figcaption", { class: "note" }, words.join(" ")) : null;
+}
+
 function figure(f: Figure): HTMLElement {
+  if (f.svg) return picture(f);
   const x = [...new Set(f.series.flatMap((s) => s.x))].sort((a, b) => a - b);
   const spread = (xs: number[], ys: (number | null)[] | undefined) =>
     ys && x.map((value) => { const i = xs.indexOf(value); return i < 0 ? null : ys[i]; }); // prettier-ignore
@@ -16,9 +33,10 @@ function figure(f: Figure): HTMLElement {
   const series = f.series.map((s): Series => {
     const i = s.paper ? 0 : own++ % COLORS.length;
     return {
-      name: s.paper ? `${s.name} (paper)` : s.name,
-      color: s.paper ? "var(--ink-2)" : COLORS[i],
-      dash: s.paper ? "3 3" : DASHES[i],
+      name: s.paper ? (s.name === "paper" ? "paper" : `${s.name} (paper)`) : s.name,
+      color: s.paper ? "var(--ink)" : COLORS[i],
+      dash: s.paper ? undefined : DASHES[i],
+      marks: s.paper,
       values: spread(s.x, s.y)!,
       low: spread(s.x, s.low),
       high: spread(s.x, s.high),
@@ -26,7 +44,7 @@ function figure(f: Figure): HTMLElement {
   });
   const chart = lineChart(series, { title: f.title, unit: f.y_label, x, xLabel: f.x_label, min: f.y_min, max: f.y_max, width: 560, height: 260, format: (v) => significant(v, 4) }, (i) => chart.mark(i));
   chart.mark(x.length - 1);
-  return h("div", { class: "card" }, chart.element, h("p", { class: "note" }, f.x_label));
+  return h("div", { class: "card" }, chart.element, h("p", { class: "note x-label" }, f.x_label), caption(f));
 }
 
 function table(t: Table): HTMLElement {
@@ -57,6 +75,7 @@ export function showExperiment(app: HTMLElement, document_: unknown): Experiment
   app.className = "experiment";
   app.replaceChildren(
     h("header", {}, h("span", { class: "mark", "aria-hidden": "true" }), h("div", { class: "titles" }, h("h1", {}, experiment.title), h("p", {}, "Vantage experiment")), toggle),
+    h("style", {}, experiment.svg_style),
     h("main", {},
       ...experiment.text.map((t) => h("p", { class: "lead" }, t)),
       h("div", { class: "figures" }, ...experiment.figures.map(figure)),
