@@ -16,7 +16,7 @@ struct ExperimentOptions {
   std::optional<std::string> objects;  // folder with meshes of the paper's objects
   int starts = 10;                     // initial views of tables 1, 2 and 4
   int seeds = 24;                      // paired runs of figures 10 and 11
-  CompareOptions compare;
+  CompareOptions compare = {};
 
   void validate() const;
   [[nodiscard]] std::optional<std::filesystem::path> folder() const;
