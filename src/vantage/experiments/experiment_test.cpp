@@ -88,6 +88,11 @@ TEST(Experiments, RunsWithSeedsStartAlikeForEveryMethod) {
 }
 
 TEST(Experiments, SayWhatIsWrongWithOptions) {
+  const auto with = [](const auto& change) {
+    ExperimentOptions options;
+    change(options);
+    return options;
+  };
   const auto message = [](const std::string& name, const ExperimentOptions& options) -> std::string {
     try {
       (void)make_experiments(name, options);
@@ -98,10 +103,11 @@ TEST(Experiments, SayWhatIsWrongWithOptions) {
   };
   EXPECT_THAT(message("table7", {}), HasSubstr("'table7' is unknown; must be one of: table1"));
   EXPECT_THAT(message("tabel1", {}), HasSubstr("did you mean 'table1'?"));
-  EXPECT_THAT(message("table1", {"/nowhere"}), HasSubstr("objects = '/nowhere': must be a folder"));
-  EXPECT_THAT(message("table1", {std::nullopt, 1}), HasSubstr("starts = 1: must be in 2..80"));
-  EXPECT_THAT(message("table1", {std::nullopt, 81}), HasSubstr("starts = 81"));
-  EXPECT_THAT(message("figure11", {std::nullopt, 10, 0}), HasSubstr("seeds = 0: must be in 2"));
+  EXPECT_THAT(message("table1", with([](auto& o) { o.objects = "/nowhere"; })),
+              HasSubstr("objects = '/nowhere': must be a folder"));
+  EXPECT_THAT(message("table1", with([](auto& o) { o.starts = 1; })), HasSubstr("starts = 1: must be in 2..80"));
+  EXPECT_THAT(message("table1", with([](auto& o) { o.starts = 81; })), HasSubstr("starts = 81"));
+  EXPECT_THAT(message("figure11", with([](auto& o) { o.seeds = 0; })), HasSubstr("seeds = 0: must be in 2"));
 }
 
 }  // namespace

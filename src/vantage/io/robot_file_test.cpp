@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/arm/arm.hpp"
+#include "vantage/io/atomic_file.hpp"
 #include "vantage/io/io_test_util.hpp"
 #include "vantage/robot/free_flyer.hpp"
 #include "vantage/robot/gantry.hpp"
