@@ -97,7 +97,7 @@ void write_scene(const std::filesystem::path& path, const TriangleMesh& mesh) {
 
 int main(int argc, char** argv) {
   ReconstructOptions options;
-  options.robot = argc > 1 ? argv[1] : "examples/arm.yaml";
+  options.robot.emplace(argc > 1 ? argv[1] : "examples/arm.yaml");
   load_robot(options);
   const TriangleMesh scene = true_scene(options);
   const RangeScanner scanner(scene);

@@ -35,7 +35,7 @@ struct ExtraMeasures {
   std::string name;  // enters the configuration: change it whenever `add` changes what it writes
   std::function<void(const SimulatedRun&, const SimulatedObject&, RunOutcome&)> add;
   /// Made for every run, instead of the utility that the options name; `name` must tell which it is.
-  std::function<Utility(const SimulatedObject&, const ReconstructOptions&)> utility;
+  std::function<Utility(const SimulatedObject&, const ReconstructOptions&)> utility = {};
 };
 
 /// A simulated reconstruction. Its outcome has the numbers `views`, `occupied`, `quality`, `distance`, `coverage`,
