@@ -269,6 +269,7 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
 ExperimentTable times_table(const Comparison& comparison, const Outcomes& outcomes) {
   ExperimentTable table;
   table.name = "compare-times";
+  table.content = ExperimentContent::times;
   table.title = "Planning times";
   table.row_title = "utility";
   table.note = "Milliseconds per plan as the clock said while several runs shared the machine; they do not repeat.";
@@ -294,15 +295,10 @@ ExperimentTable times_table(const Comparison& comparison, const Outcomes& outcom
 Experiment comparison(const ExperimentOptions& options) {
   Experiment experiment("compare");
   const Comparison compared = add_runs(experiment, options);
-  experiment.report = [compared](const Outcomes& outcomes) { return report_of(compared, outcomes); };
-  return experiment;
-}
-
-Experiment comparison_times(const ExperimentOptions& options) {
-  Experiment experiment("compare-times");
-  const Comparison compared = add_runs(experiment, options);
-  experiment.report = [compared](const Outcomes& outcomes) -> std::vector<ExperimentReport::Part> {
-    return {times_table(compared, outcomes)};
+  experiment.report = [compared](const Outcomes& outcomes) {
+    std::vector<ExperimentReport::Part> parts = report_of(compared, outcomes);
+    parts.emplace_back(times_table(compared, outcomes));
+    return parts;
   };
   return experiment;
 }

@@ -5,9 +5,7 @@
 namespace vantage {
 
 /// Utilities and reference planners on the same objects from the same starts: what they need for 90 to 99 % of the
-/// visible surface, with intervals of the differences from a baseline, paired by object and start.
+/// visible surface, with intervals of the differences from a baseline, paired by start; and how long the plans took.
 [[nodiscard]] Experiment comparison(const ExperimentOptions& options);
-/// How long the plans of the same runs took; apart, because clocks do not repeat.
-[[nodiscard]] Experiment comparison_times(const ExperimentOptions& options);
 
 }  // namespace vantage

@@ -31,8 +31,7 @@ constexpr Named makers[] = {{"table1", exhaustive_table, true},
                             {"orientation", orientation_experiment, false},
                             {"learning", learning_experiment, false},
                             {"registration", registration_experiment, false},
-                            {"compare", comparison, false},
-                            {"compare-times", comparison_times, false}};
+                            {"compare", comparison, false}};
 
 }  // namespace
 
