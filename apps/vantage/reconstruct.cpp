@@ -34,12 +34,12 @@ struct Request {
   ProgramOptions program;
 };
 
-void print_progress(const ScanRecord& record) {
+void print_progress(const ScanRecord& record, const std::string& travel_unit) {
   fmt::print(
       stderr,
-      "scan {:>2}  view {:>4}  {:>6.2f} % of the visible surface  {:>5} new voxels  {:>6.2f} m  {:>4.0f} ms  {}\n",
+      "scan {:>2}  view {:>4}  {:>6.2f} % of the visible surface  {:>5} new voxels  {:>6.2f} {}  {:>4.0f} ms  {}\n",
       record.scan + 1, record.candidate, 100 * record.coverage.value_or(0), record.new_occupied, record.distance,
-      1000 * record.timings.total(), record.merged ? record.reason : "NOT MERGED: " + record.verdict);
+      travel_unit, 1000 * record.timings.total(), record.merged ? record.reason : "NOT MERGED: " + record.verdict);
 }
 
 RunDescription describe_run(const Request& request, const std::string& object_name, const SimulatedObject& object) {
@@ -139,7 +139,7 @@ void reconstruct(Request& request) {
   observer.interrupted = was_interrupted;
   observer.on_scan = [&](const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
     folder.add_scan(record, scan, model, plan);
-    if (!request.program.quiet) print_progress(record);
+    if (!request.program.quiet) print_progress(record, request.options.travel_unit());
   };
   const SimulatedRun run = simulate(object, request.options, observer);
 
