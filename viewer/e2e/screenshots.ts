@@ -57,6 +57,14 @@ const picked: Set = async (page) => {
     session.store.set({ selection: { kind: "view", index } });
     session.store.setLayer("seen", true);
     scene!.viewport.orbit(0.5, 0.15);
+    // Turned until nothing lies over the view: neither the panel at the left nor the card at the right.
+    const { canvas } = scene!.viewport;
+    const free = () => {
+      const p = scene!.screenOfView(index);
+      const box = canvas.getBoundingClientRect();
+      return p !== null && document.elementFromPoint(box.left + p.x, box.top + p.y) === canvas;
+    };
+    for (let turn = 0; turn < 24 && !free(); ++turn) scene!.viewport.orbit(0.26, 0);
   });
 };
 
@@ -79,7 +87,7 @@ const shots: [string, string | undefined, PageOptions, Set][] = [
   ["viewer-view.png", reportPath, { scheme: "light" }, picked],
   ["viewer-result.png", reportPath, { scheme: "dark" }, result],
   ["viewer-phone.png", reportPath, { width: 390, height: 844, touch: true, scheme: "light" }, first],
-  ["viewer-experiment.png", process.argv[3] && resolve(process.argv[3]), { scheme: "light", height: 900 }, async () => {}],
+  ["viewer-experiment.png", process.argv[3] && resolve(process.argv[3]), { scheme: "light", height: 720 }, async () => {}],
 ];
 
 const browser = await launch();
@@ -88,7 +96,6 @@ for (const [name, path, options, prepare] of shots) {
   const { page, problems } = await openReport(browser, path, { width: 1280, height: 720, ...options });
   await prepare(page);
   await settle(page);
-  await page.waitForTimeout(1500);
   const file = join(root, "docs", name);
   await page.screenshot({ path: file });
   if (problems.length) throw new Error(`${name}: ${problems.join("; ")}`);

@@ -62,7 +62,7 @@ export function lineChart(series: Series[], options: ChartOptions, onPick: (inde
   const px = (x: number) => M.left + ((width - M.left - M.right) * (x - first)) / Math.max(1e-9, last - first);
   const py = (y: number) => height - M.bottom - ((height - M.top - M.bottom) * (y - low)) / (high - low);
   const parts: SVGElement[] = [];
-  for (const y of ticks(low, high, 3)) {
+  for (const y of ticks(low, high, Math.max(3, Math.round(height / 50)))) {
     parts.push(svg("line", { x1: M.left, x2: width - M.right, y1: py(y), y2: py(y), class: "grid" }));
     parts.push(svg("text", { x: M.left - 6, y: py(y) + 3.5, class: "tick", "text-anchor": "end" }, format(y)));
   }

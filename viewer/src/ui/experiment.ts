@@ -47,7 +47,20 @@ function figure(f: Figure): HTMLElement {
   return h("div", { class: "card" }, chart.element, h("p", { class: "note x-label" }, f.x_label), caption(f));
 }
 
-function table(t: Table): HTMLElement {
+/** Without the columns that hold nothing, for example the paper's where it has no such number. */
+function withoutEmpty(t: Table): Table {
+  const kept = t.columns.map((_, i) => i).filter((i) => t.rows.some((row) => row[i] !== null && row[i] !== ""));
+  return {
+    ...t,
+    columns: kept.map((i) => t.columns[i]),
+    rows: t.rows.map((row) => kept.map((i) => row[i])),
+    paper_columns: t.paper_columns.map((i) => kept.indexOf(i)).filter((i) => i >= 0),
+    verdict_column: t.verdict_column === null ? null : kept.indexOf(t.verdict_column),
+  };
+}
+
+function table(full: Table): HTMLElement {
+  const t = withoutEmpty(full);
   const text = (cell: Cell) => (typeof cell === "number" ? significant(cell, 4) : cell === null ? "–" : cell);
   const kind = (column: number, cell: Cell) => {
     if (t.paper_columns.includes(column)) return "paper";
