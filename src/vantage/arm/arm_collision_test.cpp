@@ -76,7 +76,7 @@ struct ArmAmongVoxels : public ::testing::Test {
 };
 
 TEST_F(ArmAmongVoxels, NoPlaceOfAFreeArmIsInASolidVoxel) {
-  const VoxelMap map = map_in_front([this](const Vec3&) { return random.uniform() < 0.001; });
+  const VoxelMap map = map_in_front([this](const Vec3&) { return random.uniform() < 0.005; });
   const std::vector<Box3> voxels = solid_voxels(map);
   const ArmCollision collision(arm, 1e-6, {map});
   const ArmCollision alone(arm, 1e-6);
