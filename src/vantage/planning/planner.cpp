@@ -216,8 +216,7 @@ RobotState Planner::state_behind(const View& current) const {
   if (state_ && is_current(state_->view)) return *state_;
   if (!options_.robot) return {current};
   if (auto state = options_.robot->state_at(current)) return *state;
-  // A sensor where the robot cannot have put it: somebody else did, and the robot still waits.
-  return options_.robot->home().value_or(RobotState{current});
+  return options_.robot->state_near(current);
 }
 
 std::optional<std::string> Planner::begin_at(const VoxelMap& map, int candidate) {

@@ -74,6 +74,7 @@ std::vector<PoseError::Vector> ErrorLearner::plausible() const {
   const PoseError::Vector least = prior_deviations();
   for (int axis = 0; axis < 6; ++axis) {
     std::vector<double> values;
+    values.reserve(differences_.size());
     for (const PoseError::Vector& each : differences_) values.push_back(each[axis]);
     middle[axis] = median(values);
     for (double& value : values) value = std::abs(value - middle[axis]);

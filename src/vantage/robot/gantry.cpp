@@ -1,5 +1,6 @@
 #include "vantage/robot/gantry.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
@@ -102,6 +103,14 @@ View gantry_view(const Eigen::VectorXd& joints) {
 std::optional<RobotState> Gantry::state_at(const View& view) const {
   if (why_beyond_limits(view)) return std::nullopt;
   return RobotState{view, gantry_joints(view)};
+}
+
+RobotState Gantry::state_near(const View& view) const {
+  Eigen::VectorXd joints = gantry_joints(view);
+  joints.head<3>() = joints.head<3>().cwiseMax(options_.axes.min()).cwiseMin(options_.axes.max());
+  joints[3] = std::clamp(joints[3], radians(options_.pan[0]), radians(options_.pan[1]));
+  joints[4] = std::clamp(joints[4], radians(options_.tilt[0]), radians(options_.tilt[1]));
+  return {gantry_view(joints), joints};
 }
 
 std::optional<std::string> Gantry::why_beyond_limits(const View& view) const {

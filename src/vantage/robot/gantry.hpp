@@ -24,6 +24,7 @@ class Gantry : public RobotModel {
 
   [[nodiscard]] std::unique_ptr<Mobility> among(const Surroundings& surroundings) const override;
   [[nodiscard]] std::optional<RobotState> state_at(const View& view) const override;
+  [[nodiscard]] RobotState state_near(const View& view) const override;
   /// Why the axes do not get to the view, whatever stands around.
   [[nodiscard]] std::optional<std::string> why_beyond_limits(const View& view) const;
   /// Cost of a move whose way has this length.

@@ -45,6 +45,21 @@ TEST(Gantry, SaysWhichLimitAViewIsBeyond) {
   EXPECT_THAT(why(rolled), HasSubstr("cannot roll"));
 }
 
+TEST(Gantry, TakesViewsThatItCannotHoldForTheNearestOfItsOwn) {
+  GantryOptions options;
+  options.axes = Box3(Vec3(-2, -2, 0), Vec3(2, 2, 2));
+  options.tilt = {-80, 10};
+  const Gantry gantry(options);
+  View view = view_towards(Vec3(-1, 0, 3), Vec3(0, 0, 4));  // above the axes, looking up by 45 degrees
+  view.world_from_sensor.rotate(Eigen::AngleAxisd(0.5, Vec3::UnitZ()));
+  ASSERT_FALSE(gantry.state_at(view));
+  const RobotState state = gantry.state_near(view);
+  ASSERT_EQ(state.joints.size(), 5);
+  EXPECT_TRUE(state.view.position().isApprox(Vec3(-1, 0, 2)));
+  EXPECT_LE(std::asin(state.view.axis().z()), radians(10) + 1e-9);
+  EXPECT_TRUE(gantry.state_at(state.view)) << "what it is taken for is within the limits";
+}
+
 TEST(Gantry, AMoveCostsItsWayAndTheLargerTurn) {
   const VoxelMap map{SceneOptions{}};
   const Gantry gantry(GantryOptions{.axes = Box3(Vec3(-3, -3, -3), Vec3(3, 3, 3)), .turn_cost = 0.5});

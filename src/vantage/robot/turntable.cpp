@@ -1,5 +1,6 @@
 #include "vantage/robot/turntable.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
@@ -113,6 +114,13 @@ Eigen::Vector2d Turntable::difference(const Eigen::Vector2d& from, const Eigen::
 std::optional<RobotState> Turntable::state_at(const View& view) const {
   if (why_beyond_limits(view)) return std::nullopt;
   return RobotState{view, joints_of(view)};
+}
+
+RobotState Turntable::state_near(const View& view) const {
+  Eigen::Vector2d joints = joints_of(view);
+  joints[0] = std::clamp(joints[0], radians(options_.turn[0]), radians(options_.turn[1]));
+  joints[1] = std::clamp(joints[1], radians(options_.arc[0]), radians(options_.arc[1]));
+  return {view_of(joints), joints};
 }
 
 std::optional<std::string> Turntable::why_beyond_limits(const View& view) const {

@@ -26,6 +26,7 @@ class Turntable : public RobotModel {
 
   [[nodiscard]] std::unique_ptr<Mobility> among(const Surroundings& surroundings) const override;
   [[nodiscard]] std::optional<RobotState> state_at(const View& view) const override;
+  [[nodiscard]] RobotState state_near(const View& view) const override;
   [[nodiscard]] std::string cost_unit() const override { return "rad"; }
 
   /// Why the arc does not get to the view, whatever stands around.

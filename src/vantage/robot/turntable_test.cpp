@@ -45,6 +45,15 @@ TEST(Turntable, TurnsTheShorterWayRoundUnlessItHasLimits) {
   EXPECT_NEAR(longer.cost, 2 * radians(340) + 3 * radians(10), 1e-9);
 }
 
+TEST(Turntable, TakesViewsThatItCannotHoldForTheNearestOfItsOwn) {
+  const Turntable table(TurntableOptions{.radius = 2, .arc = {10, 80}});
+  const View view = view_towards(Vec3(3, 0, 0), Vec3(0, 1, 0));  // off the arc, too low, looking aside
+  ASSERT_FALSE(table.state_at(view));
+  const RobotState state = table.state_near(view);
+  EXPECT_TRUE(state.joints.isApprox(Eigen::Vector2d(0, radians(10))));
+  EXPECT_TRUE(table.state_at(state.view)) << "what it is taken for is within the limits";
+}
+
 TEST(Turntable, RidesOneAxisAfterTheOtherWhereBothAtOnceTouch) {
   const VoxelMap map{SceneOptions{}};
   const Turntable table(TurntableOptions{.radius = 1.5, .arc = {-90, 90}, .head_radius = 0.05});
