@@ -58,6 +58,7 @@ if(VANTAGE_APPS)
   endforeach()
 endif()
 include(VantageExamples)
+include(VantagePythonTests)
 include(VantageChecks)
 include(VantageGuards)
 

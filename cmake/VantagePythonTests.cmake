@@ -1,0 +1,14 @@
+# The Python module's tests and its example, run with the interpreter that it is built for.
+if(NOT TARGET vantage_python OR VANTAGE_SANITIZE)
+  return()
+endif()
+
+set(python_environment ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_BINARY_DIR}/python PYTHONDONTWRITEBYTECODE=1
+  VANTAGE_PROGRAM=$<TARGET_FILE:vantage> VANTAGE_SHARED_DATA=${VANTAGE_SHARED_DATA} ${Python_EXECUTABLE})
+foreach(name vantage planning stubs)
+  add_test(NAME Python.${name} COMMAND ${python_environment} ${PROJECT_SOURCE_DIR}/python/tests/test_${name}.py)
+  set_tests_properties(Python.${name} PROPERTIES LABELS default TIMEOUT 240)
+endforeach()
+add_test(NAME Example.plan_in_python COMMAND ${python_environment} ${PROJECT_SOURCE_DIR}/examples/plan_in_python.py)
+set_tests_properties(Example.plan_in_python PROPERTIES LABELS default TIMEOUT 120
+  PASS_REGULAR_EXPRESSION "scan 3: .*next view [0-9]+: best of 80.*as many occplane voxels as possible: view [0-9]+")
