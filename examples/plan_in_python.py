@@ -1,6 +1,6 @@
 """Plans views of a mug in simulation, step by step, then with a utility of one's own.
 
-    PYTHONPATH=build/release/python python3 examples/plan_in_python.py
+    PYTHONPATH=build/release/python /usr/bin/python3 examples/plan_in_python.py
 
 # %% marks cells for editors that run a script piece by piece.
 """
@@ -24,7 +24,7 @@ for scan in range(1, 4):
     depth = np.array(scanner.scan(camera, view).depth)  # float32 (320, 320): what a driver would give
     report = vantage.integrate(scene_map, vantage.RangeImage(camera, depth), view)
     plan = planner.next_best_view(scene_map, view)
-    print(f"scan {scan}: {report.new_occupied} new occupied voxels; {plan.explanation}")
+    print(f"scan {scan}: {report.new_occupied} new occupied voxels; view {plan.best.candidate} is {plan.explanation}")
     view = plan.best.view
 
 # %% The map as an array, and what a view would see of it.

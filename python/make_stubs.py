@@ -5,8 +5,12 @@ pybind11 writes the signature of every function into its docstring; this puts th
 
 import inspect
 import re
+import sys
 
-from vantage import _vantage
+if __name__ == "__main__":
+    del sys.path[0]  # this folder, where the module is not yet compiled
+
+from vantage import _vantage  # noqa: E402
 
 HEAD = '''"""Type stubs of vantage, made by python/make_stubs.py; a test compares them with the module."""
 

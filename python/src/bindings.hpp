@@ -15,6 +15,7 @@ void bind_errors(py::module_& module);
 void bind_sensor(py::module_& module);
 void bind_map(py::module_& module);
 void bind_scans(py::module_& module);
+void bind_utility(py::module_& module);
 void bind_planning(py::module_& module);
 void bind_registration(py::module_& module);
 void bind_simulation(py::module_& module);

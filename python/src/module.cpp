@@ -8,6 +8,7 @@ PYBIND11_MODULE(_vantage, module) {
   bind_sensor(module);
   bind_map(module);
   bind_scans(module);
+  bind_utility(module);
   bind_planning(module);
   bind_registration(module);
   bind_simulation(module);

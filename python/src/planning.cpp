@@ -1,15 +1,14 @@
-#include <cmath>
+#include <set>
 
 #include "bindings.hpp"
 #include "options.hpp"
+#include "utility.hpp"
+#include "vantage/io/robot_file.hpp"
 #include "vantage/planning/planner.hpp"
 #include "vantage/reconstruction/options.hpp"
 
 namespace vantage::python {
 namespace {
-
-using PythonUtility = std::function<py::object(const Visibility&, const Factors&)>;
-using ViewUtility = std::function<double(const Visibility&, const Factors&)>;
 
 /// The planner's options as they stand in ReconstructOptions, so that names, defaults and meanings are those of the
 /// command line. Camera, candidates and utility are arguments of their own.
@@ -24,66 +23,26 @@ std::vector<OptionField> planner_fields(ReconstructOptions& options) {
   return fields_named(option_fields(options), names);
 }
 
-/// A Python function as a utility; it takes the lock of the interpreter for each view.
-ViewUtility checked(PythonUtility function) {
-  return [function = std::move(function)](const Visibility& seen, const Factors& found) {
-    const py::gil_scoped_acquire acquire;
-    const py::object result = function(seen, found);
-    const double utility = PyFloat_AsDouble(result.ptr());
-    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
-    require(std::isfinite(utility), "utility: returned ", utility, "; must be a finite number");
-    return utility;
-  };
-}
-
-/// A planner whose views may be judged by a Python function.
-class AnyPlanner {
- public:
-  AnyPlanner(const Candidates& candidates, const RangeCamera& camera, const PlannerOptions& options,
-             ViewUtility utility)
-      : planner_(candidates, camera, options), utility_(std::move(utility)) {
-    require(!utility_ || (options.search == SearchKind::exhaustive && !options.believed_error),
-            "utility: a function judges every view, so it needs search='exhaustive' and convolve='off'");
-  }
-
-  [[nodiscard]] std::optional<Plan> next_best_view(const VoxelMap& map, const View& current) {
-    std::optional<Plan> plan = planner_.next_best_view(map, current);
-    if (!plan || !utility_) return plan;
-    // The search has evaluated every feasible view; the function puts them in its own order.
-    for (Evaluation& each : plan->ranking) each.score = each.utility = utility_(each.seen, each.factors);
-    rank(plan->ranking);
-    plan->best = plan->ranking.front();
-    plan->explanation =
-        concat("next view ", plan->best.candidate, ": best of ", plan->ranking.size(), " by the given function (",
-               plan->best.utility, "), sees ", plan->best.seen.occplane, " occplane voxels");
-    return plan;
-  }
-
-  [[nodiscard]] Planner& planner() { return planner_; }
-
- private:
-  Planner planner_;
-  ViewUtility utility_;  // empty: that of the options
-};
-
-std::unique_ptr<AnyPlanner> make_planner(const Candidates& candidates, const RangeCamera& camera,
-                                         const std::variant<std::string, PythonUtility>& utility,
-                                         const py::kwargs& keywords) {
+std::unique_ptr<Planner> make_planner(const Candidates& candidates, const RangeCamera& camera,
+                                      const AnyUtility& utility, const py::kwargs& keywords) {
   ReconstructOptions options;
-  set_options(planner_fields(options), keywords, "Planner");
-  if (const auto* name = std::get_if<std::string>(&utility)) options.utility = *name;
+  std::set<std::string> given;
+  set_options(noting(planner_fields(options), given), keywords, "Planner");
+  options.utility = name_of(utility).value_or(options.utility);
+  given.insert("utility");
   camera.validate();
+  load_robot(options, given);
   options.validate();
-  ViewUtility function;
-  if (const auto* given = std::get_if<PythonUtility>(&utility)) function = checked(*given);
-  return std::make_unique<AnyPlanner>(candidates, camera, options.planner_options(), std::move(function));
+  const std::optional<Utility> function = utility_of(utility);
+  if (function) return std::make_unique<Planner>(candidates, camera, options.planner_options(), *function);
+  return std::make_unique<Planner>(candidates, camera, options.planner_options());
 }
 
 std::string planner_help() {
   ReconstructOptions options;
   return "Plans one view after the other.\n\nutility: the name of one, or a function that takes (Visibility, Factors) "
-         "of "
-         "a view and returns a number, higher is better.\nOptions by keyword, as on the command line:\n\n" +
+         "of a view and returns a number, higher is better (it may be asked more than once about a view), or a "
+         "SetUtility.\nOptions by keyword, as on the command line:\n\n" +
          options_text(planner_fields(options));
 }
 
@@ -124,33 +83,6 @@ void bind_candidates(py::module_& module) {
       .def("__len__", [](const Candidates& candidates) { return candidates.views.size(); });
 }
 
-void bind_factors(py::module_& module) {
-  py::class_<Factors>(module, "Factors", "The factors of a view's utility (section 5 of the paper).")
-      .def_readonly("x_oc", &Factors::x_oc, "Share of occupied voxels among the visible ones.")
-      .def_readonly("x_op", &Factors::x_op, "Share of occplane voxels among the visible ones.")
-      .def_readonly("f_area", &Factors::f_area, "Eq. 7.")
-      .def_readonly("f_navigation", &Factors::f_navigation, "Eq. 10.")
-      .def_readonly("f_quality", &Factors::f_quality, "Eq. 11.")
-      .def_readonly("f_occlusion", &Factors::f_occlusion, "Eq. 12.")
-      .def("__repr__", [](const Factors& f) {
-        return concat("<vantage.Factors area ", f.f_area, ", navigation ", f.f_navigation, ", quality ", f.f_quality,
-                      ", occlusion ", f.f_occlusion, ">");
-      });
-  module.def(
-      "factors",
-      [](const Visibility& seen, double distance, double alpha_oc, double alpha_op, double rho, bool navigation) {
-        const UtilityOptions options{alpha_oc, alpha_op, rho, navigation};
-        options.validate();
-        return factors(seen, distance, options);
-      },
-      py::arg("seen"), py::arg("normalised_distance"), py::kw_only(), py::arg("alpha_oc") = 0.2,
-      py::arg("alpha_op") = 0.8, py::arg("rho") = 0.2, py::arg("navigation") = true,
-      "The factors of a view that sees this, normalised_distance (0 to 1, eq. 10) from the current one.");
-  module.def("combined_utility", &combined_utility, py::arg("factors"), "Eq. 13.");
-  module.def("gua_utility", &gua_utility, py::arg("factors"), "Eq. 21, the greatest unknown area.");
-  module.def("utility_names", &utility_names, "Names of the utilities that Planner knows.");
-}
-
 void bind_planner(py::module_& module) {
   py::class_<Evaluation>(module, "Evaluation", "A candidate view with all that was found out about it.")
       .def_readonly("candidate", &Evaluation::candidate, "Index among the candidates.")
@@ -174,32 +106,31 @@ void bind_planner(py::module_& module) {
       .def_readonly("explanation", &Plan::explanation, "One sentence for people.")
       .def("__repr__", [](const Plan& plan) { return "<vantage.Plan " + plan.explanation + ">"; });
   const std::string help = planner_help();
-  py::class_<AnyPlanner>(module, "Planner", help.c_str())
+  py::class_<Planner>(module, "Planner", help.c_str())
       .def(py::init(&make_planner), py::arg("candidates"), py::arg("camera"), py::arg("utility") = "combined",
            "See the class for the options.")
-      .def("next_best_view", &AnyPlanner::next_best_view, py::arg("map"), py::arg("current"),
+      .def("next_best_view", &Planner::next_best_view, py::arg("map"), py::arg("current"),
            py::call_guard<py::gil_scoped_release>(),
            "The Plan for the view to take next from `current` (4x4, world from sensor), or None where nothing is left "
            "to "
            "see; why_finished then says so.")
       .def(
-          "discard",
-          [](AnyPlanner& p, int candidate, const std::string& reason) { p.planner().discard(candidate, reason); },
+          "discard", [](Planner& p, int candidate, const std::string& reason) { p.discard(candidate, reason); },
           py::arg("candidate"), py::arg("reason"), "The robot cannot reach this candidate: it is not planned again.")
       .def(
-          "set_aside",
-          [](AnyPlanner& p, int candidate, const std::string& reason) { p.planner().set_aside(candidate, reason); },
+          "set_aside", [](Planner& p, int candidate, const std::string& reason) { p.set_aside(candidate, reason); },
           py::arg("candidate"), py::arg("reason"),
           "This candidate's scan could not be used: it is not planned again until map_changed().")
+      .def("scanned", &Planner::scanned, py::arg("view"), py::arg("candidate") = -1,
+           "A scan from this view (4x4) was merged: for utilities that look at the views so far. -1: no candidate.")
       .def(
-          "map_changed", [](AnyPlanner& p) { p.planner().map_changed(); },
-          "Views that were set aside may be planned again.")
+          "map_changed", [](Planner& p) { p.map_changed(); }, "Views that were set aside may be planned again.")
       .def_property_readonly(
-          "why_finished", [](AnyPlanner& p) { return p.planner().why_finished(); }, "Why there is no next view.")
+          "why_finished", [](Planner& p) { return p.why_finished(); }, "Why there is no next view.")
       .def_property_readonly(
-          "candidates", [](AnyPlanner& p) { return p.planner().candidates(); }, "Candidates; a copy.")
+          "candidates", [](Planner& p) { return p.candidates(); }, "Candidates; a copy.")
       .def_property_readonly(
-          "camera", [](AnyPlanner& p) { return p.planner().camera(); }, "RangeCamera; a copy.");
+          "camera", [](Planner& p) { return p.camera(); }, "RangeCamera; a copy.");
 }
 
 std::vector<double> convolve_utilities(const DoubleArray& utilities, const Candidates& candidates,
@@ -222,7 +153,6 @@ std::vector<double> convolve_utilities(const DoubleArray& utilities, const Candi
 
 void bind_planning(py::module_& module) {
   bind_candidates(module);
-  bind_factors(module);
   bind_planner(module);
   module.def(
       "why_infeasible",

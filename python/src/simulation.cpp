@@ -1,8 +1,10 @@
-#include <algorithm>
+#include <set>
 
 #include "bindings.hpp"
 #include "options.hpp"
+#include "utility.hpp"
 #include "vantage/io/mesh_file.hpp"
+#include "vantage/io/robot_file.hpp"
 #include "vantage/reconstruction/simulate.hpp"
 #include "vantage/simulation/objects.hpp"
 
@@ -19,10 +21,15 @@ std::pair<TriangleMesh, double> object_of(const std::variant<std::string, Triang
 }
 
 SimulatedRun run_simulation(const std::variant<std::string, TriangleMesh>& object, const std::optional<OnScan>& on_scan,
-                            const py::kwargs& keywords) {
+                            const AnyUtility& utility, const py::kwargs& keywords) {
   ReconstructOptions options;
-  set_options(option_fields(options), keywords, "simulate");
+  std::set<std::string> given;
+  set_options(noting(option_fields(options), given), keywords, "simulate");
+  options.utility = name_of(utility).value_or(options.utility);
+  given.insert("utility");
+  const std::optional<Utility> function = utility_of(utility);
   const py::gil_scoped_release release;
+  load_robot(options, given);
   options.validate();
   const auto [mesh, size] = object_of(object);
   RunObserver observer;
@@ -37,14 +44,15 @@ SimulatedRun run_simulation(const std::variant<std::string, TriangleMesh>& objec
       (*on_scan)(record, model.map);
     };
   }
-  return simulate(SimulatedObject(mesh, options.size.value_or(size), options), options, observer);
+  return simulate(SimulatedObject(mesh, options.size.value_or(size), options), options, observer, function);
 }
 
 std::string simulate_help() {
   ReconstructOptions options;
   return "A whole reconstruction in simulation: a SimulatedRun.\n\nobject: the name of a built-in object "
          "(object_names) "
-         "or a TriangleMesh. on_scan(record, map): called after every scan with its record and a copy of the map.\n"
+         "or a TriangleMesh. on_scan(record, map): called after every scan with its record and a copy of the map. "
+         "utility: as for Planner.\n"
          "Options by keyword, as on the command line; the same options give the same bits:\n\n" +
          options_text(option_fields(options));
 }
@@ -151,7 +159,8 @@ void bind_simulation(py::module_& module) {
       .def_property_readonly("view", &SimulatedRobot::view, "(4, 4), where the robot believes to be.")
       .def_property_readonly("true_view", &SimulatedRobot::true_view, "(4, 4), where it is.");
   const std::string help = simulate_help();
-  module.def("simulate", &run_simulation, py::arg("object"), py::arg("on_scan") = py::none(), help.c_str());
+  module.def("simulate", &run_simulation, py::arg("object"), py::arg("on_scan") = py::none(),
+             py::arg("utility") = "combined", help.c_str());
   module.def(
       "reconstruct_options",
       [] {

@@ -97,7 +97,6 @@ std::vector<Evaluation> ViewEvaluation::evaluate_until(std::chrono::steady_clock
     evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], *seen[i]));
   }
   score(evaluations);
-  score(evaluations);
   return evaluations;
 }
 
