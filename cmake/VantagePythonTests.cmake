@@ -1,5 +1,5 @@
 # The Python module's tests and its example, run with the interpreter that it is built for.
-if(NOT TARGET vantage_python OR VANTAGE_SANITIZE)
+if(NOT TARGET vantage_python)
   return()
 endif()
 
