@@ -7,7 +7,7 @@ set(python_environment ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_BINARY_DIR}/
   VANTAGE_PROGRAM=$<TARGET_FILE:vantage> VANTAGE_SHARED_DATA=${VANTAGE_SHARED_DATA} ${Python_EXECUTABLE})
 foreach(name vantage planning stubs)
   add_test(NAME Python.${name} COMMAND ${python_environment} ${PROJECT_SOURCE_DIR}/python/tests/test_${name}.py)
-  set_tests_properties(Python.${name} PROPERTIES LABELS default TIMEOUT 240)
+  set_tests_properties(Python.${name} PROPERTIES LABELS default TIMEOUT 600)
 endforeach()
 add_test(NAME Example.plan_in_python COMMAND ${python_environment} ${PROJECT_SOURCE_DIR}/examples/plan_in_python.py)
 set_tests_properties(Example.plan_in_python PROPERTIES LABELS default TIMEOUT 120
