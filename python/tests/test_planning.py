@@ -217,9 +217,6 @@ class RealScans(unittest.TestCase):
         np.testing.assert_array_equal(written.labels(), model.map.labels())
         np.testing.assert_allclose(written.origin, model.map.origin, rtol=0, atol=1e-12)  # the file holds it rounded
 
-    def test_ur5_tray(self):
-        self.agrees_with_the_program("ur5_tray", [-0.11, -0.29, 0.09, 0.36, 0.24, 0.12], depth_range=[0.25, 1.5])
-
     def test_apc_shelf(self):
         self.agrees_with_the_program("apc_shelf", [1.68, 0.0, 1.14, 0.44, 0.34, 0.28], depth_range=[0.15, 1.2],
                                      depth_scale=0.0001, poses="pose_robot")
