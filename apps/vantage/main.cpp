@@ -32,6 +32,7 @@ int run(int argc, char** argv) {
   program.failure_message(CLI::FailureMessage::help);
   vantage::app::add_reconstruct(program);
   vantage::app::add_plan(program);
+  vantage::app::add_session(program);
   vantage::app::add_evaluate(program);
   vantage::app::add_experiment(program);
   vantage::app::add_config(program);

@@ -24,6 +24,7 @@ FOLDERS = {
     "planning": (6, ["search"]),
     "reconstruction": (7, ["planning", "registration", "simulation"]),
     "io": (8, ["reconstruction", "arm"]),
+    "session": (9, ["io"]),
     "experiments": (9, ["io"]),
     "server": (9, ["io"]),
 }

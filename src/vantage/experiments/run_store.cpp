@@ -45,7 +45,10 @@ std::string text_of(const Json& json) { return json.dump(1) + "\n"; }
 }  // namespace
 
 RunStore::RunStore(const std::filesystem::path& folder, std::string program)
-    : runs_(created(folder / "runs")), times_(created(folder / "times")), lock_(folder), program_(std::move(program)) {
+    : runs_(created(folder / "runs")),
+      times_(created(folder / "times")),
+      lock_(folder, "another experiment is writing there; wait for it or choose another --out"),
+      program_(std::move(program)) {
   remove_unfinished(runs_);
   remove_unfinished(times_);
 }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "vantage/experiments/folder_lock.hpp"
 #include "vantage/experiments/sweep_run.hpp"
+#include "vantage/io/folder_lock.hpp"
 
 namespace vantage {
 

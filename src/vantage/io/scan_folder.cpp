@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "vantage/core/error.hpp"
 #include "vantage/io/atomic_file.hpp"
@@ -21,6 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array frame_endings{".depth.png", ".depth.raw"};
+constexpr std::array cloud_endings{".ply", ".pcd", ".xyz", ".xyzn"};
+constexpr std::array conf_endings{".conf"};
+
 /// A scan's file and its name without the endings that tell what it is.
 struct Found {
   std::string name;
@@ -31,7 +36,7 @@ bool ends_with(const std::string& text, std::string_view ending) {
   return text.size() > ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-std::vector<Found> files_ending_with(const fs::path& folder, std::initializer_list<const char*> endings) {
+std::vector<Found> files_ending_with(const fs::path& folder, std::span<const char* const> endings) {
   std::vector<Found> found;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();
@@ -161,15 +166,31 @@ ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
 }
 
 ScanSet open_folder(const fs::path& folder, const ScanFolderOptions& options) {
-  const std::vector<Found> frames = files_ending_with(folder, {".depth.png", ".depth.raw"});
+  const std::vector<Found> frames = files_ending_with(folder, frame_endings);
   if (!frames.empty()) return open_depth_frames(folder, frames, options);
-  const std::vector<Found> confs = files_ending_with(folder, {".conf"});
+  const std::vector<Found> confs = files_ending_with(folder, conf_endings);
   require(confs.size() <= 1, folder.string(), ": has ", confs.size(), " .conf files; give the path of one");
   if (!confs.empty()) return open_conf(confs.front().path, options);
-  std::vector<Found> clouds = files_ending_with(folder, {".ply", ".pcd", ".xyz", ".xyzn"});
+  std::vector<Found> clouds = files_ending_with(folder, cloud_endings);
   require(!clouds.empty(), folder.string(),
           ": has no scans; must have NAME.depth.png or .raw, NAME.ply, .pcd or .xyz, or a .conf file");
   return open_clouds(folder, clouds, options);
+}
+
+/// One frame or cloud, with pose and intrinsics from its folder.
+ScanSet open_file(const fs::path& path, const ScanFolderOptions& options) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const std::string file = path.filename().string();
+  for (const char* ending : frame_endings) {
+    if (ends_with(file, ending))
+      return open_depth_frames(folder, {{file.substr(0, file.size() - std::string_view(ending).size()), path}},
+                               options);
+  }
+  for (const char* ending : cloud_endings) {
+    if (ends_with(file, ending)) return open_clouds(folder, {{path.stem().string(), path}}, options);
+  }
+  throw InputError(fmt::format("{}: is no scan; must be one of NAME{}, NAME{}, or a .conf file", path.string(),
+                               fmt::join(frame_endings, ", NAME"), fmt::join(cloud_endings, ", NAME")));
 }
 
 }  // namespace
@@ -191,8 +212,8 @@ ScanSet open_scans(const fs::path& path, const ScanFolderOptions& options) {
   } catch (const fs::filesystem_error& error) {
     throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.code().message()));
   }
-  require(path.extension() == ".conf", path.string(), ": scans must be a folder or a .conf file");
-  return open_conf(path, options);
+  if (path.extension() == ".conf") return open_conf(path, options);
+  return open_file(path, options);
 }
 
 }  // namespace vantage

@@ -1,4 +1,4 @@
-#include "vantage/experiments/folder_lock.hpp"
+#include "vantage/io/folder_lock.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,14 +12,13 @@
 
 namespace vantage {
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& what_then)
     : descriptor_(::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0)
     throw Error(fmt::format("{}: cannot be written to: {}", folder.string(), std::generic_category().message(errno)));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(descriptor_);
-  throw Error(
-      fmt::format("{}: another experiment is writing there; wait for it or choose another --out", folder.string()));
+  throw Error(fmt::format("{}: {}", folder.string(), what_then));
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

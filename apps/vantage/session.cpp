@@ -1,0 +1,181 @@
+#include "vantage/session/session.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli_options.hpp"
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "plan_table.hpp"
+#include "program_options.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/io/ranked_views.hpp"
+#include "vantage/io/robot_file.hpp"
+#include "vantage/session/session_json.hpp"
+
+namespace vantage::app {
+namespace {
+
+struct Request {
+  std::string folder;
+  std::set<std::string> given;     // new: names of options that the user set
+  ScanPlanningOptions options;     // new
+  std::vector<std::string> scans;  // add
+  std::optional<int> candidate;    // add
+  std::vector<std::pair<std::string, std::string>>
+      changed;                      // add: options of reading that are other than the session's
+  int top = 10;                     // next
+  std::optional<int> skip, unskip;  // next
+  std::string reason;               // next
+  ProgramOptions program;
+};
+
+using Shared = std::shared_ptr<Request>;
+
+void tell_dropped(const std::vector<std::string>& dropped) {
+  for (const std::string& each : dropped) fmt::print(stderr, "vantage: {}\n", each);
+}
+
+void create(Request& request) {
+  load_robot(request.options.planning, request.given);
+  Session::create(request.folder, request.options);
+  if (!request.program.quiet) fmt::print("new session in {}\n", request.folder);
+}
+
+ScanFolderOptions reading_options(const Request& request, const Session& session) {
+  ScanFolderOptions reading = session.options().reading;
+  const std::vector<OptionField> fields = option_fields(reading);
+  for (const auto& [name, text] : request.changed) set_option(fields_named(fields, {name}).front(), text, "--" + name);
+  return reading;
+}
+
+void add(Request& request) {
+  const auto threads = limit_threads(request.program.threads);
+  Session session(request.folder);
+  tell_dropped(session.status().dropped);
+  const ScanFolderOptions reading = reading_options(request, session);
+  std::vector<ScanFile> files;
+  for (const std::string& path : request.scans) {
+    for (ScanFile& file : open_scans(path, reading).scans) files.push_back(std::move(file));
+  }
+  require(!request.candidate || files.size() == 1, "candidate = ", request.candidate.value_or(0),
+          ": is for one scan, there are ", files.size());
+  catch_interrupts();
+  nlohmann::ordered_json added = nlohmann::ordered_json::array();
+  for (const ScanFile& file : files) {
+    if (was_interrupted()) break;
+    const int number = session.store({file.name, file.view, file.read(), request.candidate});
+    const ScanRecord record = session.integrate(number);
+    if (request.program.json) {
+      added.push_back(session_scan_json(number, record));
+    } else {
+      fmt::print("stored scan {:>3}  ", number);
+      print_record(stdout, record);
+      std::fflush(stdout);
+    }
+  }
+  if (request.program.json) fmt::print("{}\n", nlohmann::ordered_json{{"scans", added}}.dump(2));
+  for (const std::string& warning : session.status().warnings) fmt::print(stderr, "vantage: {}\n", warning);
+}
+
+void next(Request& request) {
+  const auto threads = limit_threads(request.program.threads);
+  require(request.top >= 0, "top = ", request.top, ": must not be negative");
+  require(request.reason.empty() || request.skip, "reason: belongs to --skip");
+  Session session(request.folder);
+  tell_dropped(session.status().dropped);
+  if (request.skip) session.skip(*request.skip, request.reason);
+  if (request.unskip) session.unskip(*request.unskip);
+  const SessionPlan plan = session.next();
+  if (request.program.json) {
+    fmt::print("{}\n", ranked_views_json(plan.plan, plan.why_finished, plan.state->scans, request.top).dump(2));
+  } else {
+    print_plan(plan.plan, plan.why_finished, request.top);
+  }
+}
+
+void status(Request& request) {
+  Session session(request.folder);
+  const SessionStatus status = session.status();
+  tell_dropped(status.dropped);
+  if (request.program.json) {
+    fmt::print("{}\n", status_json(status).dump(2));
+    return;
+  }
+  fmt::print("{}: {} scans, {} of them merged, {:.2f} m travelled\n ", request.folder, status.stored, status.merged,
+             status.state->scans.empty() ? 0 : status.state->scans.back().distance);
+  for (const Label label : all_labels) fmt::print(" {} {} ", status.state->map.count(label), name(label));
+  fmt::print(" mean quality {:.3f}\n", status.state->map.mean_quality());
+  for (const auto& [candidate, reason] : status.skipped) fmt::print("view {} is skipped: {}\n", candidate, reason);
+}
+
+void finish(Request& request) {
+  const auto threads = limit_threads(request.program.threads);
+  Session session(request.folder);
+  tell_dropped(session.status().dropped);
+  session.finish();
+  if (!request.program.quiet) fmt::print("written to {}; open report.html there\n", request.folder);
+}
+
+/// The fields, so that a value is checked and also kept in `changed`.
+std::vector<OptionField> noting_fields(const Shared& request) {
+  std::vector<OptionField> fields = option_fields(request->options.reading);
+  for (OptionField& field : fields) {
+    field.set = [set = field.set, name = field.name, request](std::string_view text) {
+      request->changed.emplace_back(name, text);
+      return set(text);
+    };
+  }
+  return fields;
+}
+
+/// Adds `session NAME DIR`.
+CLI::App* add_step(CLI::App& session, const char* name, const char* help, const Shared& request,
+                   void (*run)(Request&)) {
+  CLI::App* step = session.add_subcommand(name, help);
+  step->add_option("dir", request->folder, "folder of the session")->required();
+  step->callback([request, run] { run(*request); });
+  return step;
+}
+
+}  // namespace
+
+void add_session(CLI::App& program) {
+  CLI::App* session = program.add_subcommand(
+      "session", "Scan over hours: a folder that scans are added to and views are asked of, across restarts");
+  session->require_subcommand(1);
+
+  const auto for_new = std::make_shared<Request>();
+  CLI::App* step = add_step(*session, "new", "Start a session; the options are those of plan", for_new, create);
+  add_options(*step, noting(option_fields(for_new->options), for_new->given));
+  add_program_options(*step, for_new->program);
+
+  const auto for_add = std::make_shared<Request>();
+  step =
+      add_step(*session, "add", "Add scans with their poses; each is safe on disk once it is reported", for_add, add);
+  step->add_option("scans", for_add->scans, "depth frames, clouds, folders of them, or Stanford .conf files")
+      ->required();
+  step->add_option("--candidate", for_add->candidate, "the planned view that this one scan was taken from");
+  add_options(*step, noting_fields(for_add));
+  add_program_options(*step, for_add->program);
+
+  const auto for_next = std::make_shared<Request>();
+  step = add_step(*session, "next", "Say where to look next, with the reasons", for_next, next);
+  step->add_option("--top", for_next->top, "views to print, best first")->capture_default_str();
+  step->add_option("--skip", for_next->skip, "do not plan this view again");
+  step->add_option("--reason", for_next->reason, "why it is skipped");
+  step->add_option("--unskip", for_next->unskip, "plan this view again");
+  add_program_options(*step, for_next->program);
+
+  const auto for_status = std::make_shared<Request>();
+  step = add_step(*session, "status", "Say how the session stands", for_status, status);
+  add_program_options(*step, for_status->program);
+
+  const auto for_finish = std::make_shared<Request>();
+  step = add_step(*session, "finish", "Write model, mesh, map, views.csv, summary.json and report.html", for_finish,
+                  finish);
+  add_program_options(*step, for_finish->program);
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace vantage {
+
+/// The content with a last line `crc32 XXXXXXXX`, by which unsealed() tells whether it is whole.
+[[nodiscard]] std::string sealed(std::string_view content);
+/// The content of what sealed() made. Throws InputError starting with `name` where it is cut off or changed.
+[[nodiscard]] std::string_view unsealed(std::string_view bytes, const std::string& name);
+
+/// Writes the sealed content aside, syncs it to the disk and renames it: once this returns the file is safe.
+void write_sealed(const std::filesystem::path& path, std::string_view content);
+/// Throws InputError where the file cannot be read or is not whole.
+[[nodiscard]] std::string read_sealed(const std::filesystem::path& path);
+
+}  // namespace vantage

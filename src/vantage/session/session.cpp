@@ -1,0 +1,164 @@
+#include "vantage/session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vantage/core/error.hpp"
+#include "vantage/io/run_folder.hpp"
+
+namespace vantage {
+namespace {
+
+/// Why there is nothing to plan on, or empty.
+std::string why_not_yet(const SessionState& state) {
+  if (state.scans.empty()) return "there is no scan yet; add one";
+  if (!state.box_was_seen) {
+    return fmt::format(
+        "none of the {} scans has a point in the box; `vantage doctor` tells whether poses, units or the box are wrong",
+        state.scans.size());
+  }
+  return {};
+}
+
+}  // namespace
+
+void Session::create(const std::filesystem::path& folder, const ScanPlanningOptions& options) {
+  SessionFolder::create(folder, options);
+}
+
+Session::Session(const std::filesystem::path& folder, OnScan on_scan)
+    : folder_(folder), on_scan_(std::move(on_scan)), model_(folder_.options()) {
+  replay();
+}
+
+void Session::replay() {
+  const std::vector<int> numbers = folder_.scans();
+  for (const int number : numbers) {
+    std::optional<Waiting> waiting;
+    try {
+      waiting = Waiting{number, folder_.read(number)};
+    } catch (const InputError& error) {
+      folder_.set_aside(number, error.what());
+      continue;
+    }
+    ++stored_;
+    integrate_one(*waiting, folder_.located(number));
+  }
+  skipped_ = folder_.skipped();
+  state_ = std::make_shared<const SessionState>(model_.state());
+}
+
+int Session::store(SessionScan scan) {
+  scan.validate();
+  const std::lock_guard storing(storing_);
+  const int number = folder_.store(scan);
+  waiting_.push_back({number, std::move(scan)});
+  const std::lock_guard looking(looking_);
+  ++stored_;
+  return number;
+}
+
+void Session::integrate_one(const Waiting& waiting, const std::optional<Located>& known) {
+  const Located found = model_.add(waiting.number, waiting.scan, known);
+  on_scan_(model_.model().scans.back(), model_.model());
+  if (known) return;
+  try {
+    folder_.store_located(waiting.number, found);
+  } catch (const Error& error) {
+    // The scan itself is safe, and registration will find the same again.
+    const std::lock_guard looking(looking_);
+    warnings_.emplace_back(error.what());
+  }
+}
+
+ScanRecord Session::integrate(int number) {
+  const std::lock_guard merging(merging_);
+  while (true) {
+    std::optional<Waiting> waiting;
+    {
+      const std::lock_guard storing(storing_);
+      if (waiting_.empty() || waiting_.front().number > number) break;
+      waiting = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
+    integrate_one(*waiting, std::nullopt);
+    auto after = std::make_shared<const SessionState>(model_.state());
+    const std::lock_guard looking(looking_);
+    state_ = std::move(after);
+  }
+  const auto now = state();
+  const auto found = std::find(now->numbers.begin(), now->numbers.end(), number);
+  require(found != now->numbers.end(), "scan ", number, ": is not in the session");
+  return now->scans[static_cast<std::size_t>(found - now->numbers.begin())];
+}
+
+std::shared_ptr<const SessionState> Session::state() const {
+  const std::lock_guard looking(looking_);
+  return state_;
+}
+
+SessionPlan Session::next() {
+  const std::lock_guard planning(planning_);
+  SessionPlan plan;
+  std::map<int, std::string> skipped;
+  {
+    const std::lock_guard looking(looking_);
+    plan.state = state_;
+    skipped = skipped_;
+  }
+  if (plan_ && plan_->state == plan.state && skipped_of_plan_ == skipped) return *plan_;
+  plan.why_finished = why_not_yet(*plan.state);
+  if (plan.why_finished.empty()) {
+    Planner planner = session_planner(options(), *plan.state, skipped);
+    plan.plan = planner.next_best_view(plan.state->map, plan.state->current);
+    plan.why_finished = planner.why_finished();
+  }
+  plan_ = plan;
+  skipped_of_plan_ = std::move(skipped);
+  return plan;
+}
+
+void Session::skip(int candidate, const std::string& reason) {
+  require(!reason.empty(), "reason: must say why candidate ", candidate, " is skipped");
+  change_skipped(candidate, reason);
+}
+
+void Session::unskip(int candidate) { change_skipped(candidate, std::nullopt); }
+
+void Session::change_skipped(int candidate, const std::optional<std::string>& reason) {
+  require(candidate >= 0 && candidate < options().scene.views, "candidate = ", candidate,
+          ": must be one of the views 0 .. ", options().scene.views - 1);
+  const std::lock_guard storing(storing_);
+  std::map<int, std::string> skipped = folder_.skipped();
+  require(reason || skipped.count(candidate) == 1, "candidate ", candidate, ": was not skipped");
+  if (reason) {
+    skipped[candidate] = *reason;
+  } else {
+    skipped.erase(candidate);
+  }
+  folder_.store_skipped(skipped);
+  const std::lock_guard looking(looking_);
+  skipped_ = std::move(skipped);
+}
+
+SessionStatus Session::status() {
+  SessionStatus status;
+  const std::lock_guard looking(looking_);
+  status.stored = stored_;
+  status.state = state_;
+  status.integrated = state_->scans.size();
+  status.merged = static_cast<std::size_t>(std::count_if(state_->scans.begin(), state_->scans.end(),
+                                                         [](const ScanRecord& record) { return record.merged; }));
+  status.skipped = skipped_;
+  status.dropped = folder_.dropped();
+  status.warnings = warnings_;
+  return status;
+}
+
+PointCloud Session::cloud() {
+  const std::lock_guard merging(merging_);
+  return object_cloud(model_.model());
+}
+
+}  // namespace vantage

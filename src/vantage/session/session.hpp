@@ -1,0 +1,100 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "vantage/session/session_folder.hpp"
+#include "vantage/session/session_model.hpp"
+
+namespace vantage {
+
+/// What a session plans, and the state that it was planned on.
+struct SessionPlan {
+  std::shared_ptr<const SessionState> state;
+  std::optional<Plan> plan;
+  std::string why_finished;  // where there is no plan
+};
+
+/// How a session stands.
+struct SessionStatus {
+  std::size_t stored = 0, integrated = 0, merged = 0;
+  std::shared_ptr<const SessionState> state;
+  std::map<int, std::string> skipped;
+  std::vector<std::string> dropped;   // what opening it left out
+  std::vector<std::string> warnings;  // what could not be written since
+};
+
+/// A reconstruction that lives in a folder over hours and restarts: scans are added to it and views asked of it.
+///
+/// Every scan is safe on disk before its number is given out. Any thread may call any member at any time: scans are
+/// registered one after the other in the order of their numbers, and next() and status() answer from the last one that
+/// was integrated, without waiting for a registration. The same scans give the same map and plans to the last bit,
+/// whether they come at once or with restarts between them, and the same as `plan`.
+class Session {
+ public:
+  /// Makes a session of the folder. The options must have a box. Throws InputError naming the option, or where the
+  /// folder already is a session.
+  static void create(const std::filesystem::path& folder, const ScanPlanningOptions& options);
+  /// Opens a session and merges its scans again where they were registered before. Throws InputError where it is none,
+  /// Error where another process has it open.
+  /// `on_scan` hears of each scan that is merged, those merged again while opening too, in the thread that does it.
+  using OnScan = std::function<void(const ScanRecord&, const ObjectModel&)>;
+  explicit Session(
+      const std::filesystem::path& folder, OnScan on_scan = [](const ScanRecord&, const ObjectModel&) {});
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+  [[nodiscard]] const ScanPlanningOptions& options() const { return folder_.options(); }
+
+  /// Writes the scan to disk and returns its number; integrate() merges it. Throws InputError where the scan is not
+  /// valid, Error where it could not be written; then it is not part of the session.
+  int store(SessionScan scan);
+  /// Registers and merges the stored scans up to this number, unless another thread does. Returns the record of it.
+  ScanRecord integrate(int number);
+  /// Both.
+  ScanRecord add(SessionScan scan) { return integrate(store(std::move(scan))); }
+
+  /// The views to take next, planned on the last integrated map.
+  [[nodiscard]] SessionPlan next();
+  /// The view of this candidate is not planned again: it could not be reached, or somebody does not want it.
+  void skip(int candidate, const std::string& reason);
+  /// Takes skip() back.
+  void unskip(int candidate);
+  [[nodiscard]] SessionStatus status();
+  /// The fused cloud in the box; waits for a registration that goes on.
+  [[nodiscard]] PointCloud cloud();
+  /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10). Scans may be
+  /// added during that and after it.
+  void finish();
+
+ private:
+  struct Waiting {
+    int number;
+    SessionScan scan;
+  };
+
+  void replay();
+  void integrate_one(const Waiting& waiting, const std::optional<Located>& known);
+  void change_skipped(int candidate, const std::optional<std::string>& reason);
+  [[nodiscard]] std::shared_ptr<const SessionState> state() const;
+
+  // Locked in this order: the model; the plan that was made last; the folder and the scans that wait to be merged; and,
+  // for moments only, what everybody looks at.
+  std::mutex merging_, planning_, storing_;
+  mutable std::mutex looking_;
+
+  SessionFolder folder_;
+  OnScan on_scan_;
+  std::deque<Waiting> waiting_;
+  SessionModel model_;
+  std::optional<SessionPlan> plan_;
+  std::map<int, std::string> skipped_of_plan_;
+
+  std::shared_ptr<const SessionState> state_;
+  std::map<int, std::string> skipped_;
+  std::size_t stored_ = 0;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,148 @@
+#include "vantage/session/session_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.hpp"
+#include "vantage/io/atomic_file.hpp"
+#include "vantage/io/json_text.hpp"
+#include "vantage/session/sealed_file.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* data_folder = "session";
+constexpr const char* options_file = "options.yaml";
+constexpr const char* skipped_file = "skipped.json";
+constexpr const char* in_use = "another process has this session open; end it, or ask it over HTTP (vantage serve)";
+
+/// The number that a file's name stands for, where it has this ending.
+std::optional<int> number_of(const fs::path& file, const char* ending) {
+  if (file.extension() != ending) return std::nullopt;
+  const std::string stem = file.stem().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  if (error != std::errc() || end != stem.data() + stem.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+void create_folders(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw Error(fmt::format("cannot create the session {}: {}", path.string(), error.message()));
+}
+
+}  // namespace
+
+void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& options) {
+  options.validate();
+  require(
+      options.scene.box.has_value(),
+      "box: a session needs cx,cy,cz,sx,sy,sz; its scans come one by one, so that the box cannot be found from them");
+  (void)scene_in(*given_box(options.scene), options.scene);
+  const fs::path data = path / data_folder;
+  require(!fs::exists(data / options_file), path.string(),
+          ": already is a session; add scans to it or give another folder");
+  create_folders(data);
+  const FolderLock lock(data, in_use);
+  ScanPlanningOptions copy = options;
+  write_file_atomically(data / options_file, "# vantage session, format 1\n" + options_as_yaml(option_fields(copy)));
+}
+
+SessionFolder::SessionFolder(const fs::path& path) : path_(path), data_(path / data_folder) {
+  require(fs::exists(data_ / options_file), path.string(), ": is no session; make one with `vantage session new`");
+  lock_.emplace(data_, in_use);
+  set_options_from_yaml(option_fields(options_), read_file(data_ / options_file), (data_ / options_file).string());
+  options_.validate();
+  require(options_.scene.box.has_value(), (data_ / options_file).string(), ": has no box");
+  list_files();
+  read_skipped();
+}
+
+void SessionFolder::list_files() {
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::directory_iterator(data_)) {
+    const fs::path& file = entry.path();
+    if (file.extension() == ".tmp") unfinished.push_back(file);
+    if (const auto number = number_of(file, ".scan")) scans_.push_back(*number);
+    for (const char* ending : {".scan", ".damaged"}) next_ = std::max(next_, number_of(file, ending).value_or(-1) + 1);
+  }
+  std::sort(scans_.begin(), scans_.end());
+  std::sort(unfinished.begin(), unfinished.end());
+  for (const fs::path& file : unfinished) {
+    dropped_.push_back(fmt::format("dropped {}: its write was never finished or acknowledged", file.string()));
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  }
+}
+
+void SessionFolder::read_skipped() {
+  const fs::path file = data_ / skipped_file;
+  if (!fs::exists(file)) return;
+  try {
+    const nlohmann::json list = parse_json(read_sealed(file), file.string());
+    require(list.is_array(), file.string(), ": must be a list");
+    for (const nlohmann::json& each : list) {
+      require(each.is_object() && each.contains("index") && each["index"].is_number_integer() &&
+                  each.contains("reason") && each["reason"].is_string(),
+              file.string(), ": each must have 'index' and 'reason'");
+      skipped_[each["index"].get<int>()] = each["reason"].get<std::string>();
+    }
+  } catch (const InputError& error) {
+    skipped_.clear();
+    dropped_.push_back(fmt::format("forgot which views were skipped: {}", error.what()));
+  }
+}
+
+fs::path SessionFolder::file(int number, const char* ending) const {
+  return data_ / fmt::format("{:06}{}", number, ending);
+}
+
+int SessionFolder::store(const SessionScan& scan) {
+  const int number = next_;
+  write_sealed(file(number, ".scan"), scan_bytes(scan));
+  scans_.push_back(number);
+  ++next_;
+  return number;
+}
+
+SessionScan SessionFolder::read(int number) const {
+  const fs::path path = file(number, ".scan");
+  return parse_scan(read_sealed(path), path.string());
+}
+
+void SessionFolder::set_aside(int number, const std::string& why) {
+  const fs::path kept = file(number, ".damaged");
+  std::error_code error;
+  fs::rename(file(number, ".scan"), kept, error);
+  scans_.erase(std::remove(scans_.begin(), scans_.end(), number), scans_.end());
+  dropped_.push_back(fmt::format("left out scan {}, kept as {}: {}", number, kept.string(), why));
+}
+
+void SessionFolder::store_located(int number, const Located& found) const {
+  write_sealed(file(number, ".located"), located_text(found));
+}
+
+std::optional<Located> SessionFolder::located(int number) const {
+  const fs::path path = file(number, ".located");
+  try {
+    if (fs::exists(path)) return parse_located(read_sealed(path), path.string());
+  } catch (const InputError&) {
+    // Registration finds the same again.
+  }
+  return std::nullopt;
+}
+
+void SessionFolder::store_skipped(const std::map<int, std::string>& skipped) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [candidate, reason] : skipped) list.push_back({{"index", candidate}, {"reason", reason}});
+  write_sealed(data_ / skipped_file, list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  skipped_ = skipped;
+}
+
+}  // namespace vantage

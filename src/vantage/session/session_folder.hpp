@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/io/folder_lock.hpp"
+#include "vantage/io/scan_planning_options.hpp"
+#include "vantage/session/session_scan.hpp"
+
+namespace vantage {
+
+/// The folder `session` in the folder of a session: options.yaml, one NUMBER.scan per scan and one NUMBER.located with
+/// what registration found, and skipped.json. Every file is sealed (sealed_file.hpp) and appears only when it is
+/// complete, so that a process that ends at any moment leaves a folder that opens again with every scan whose store()
+/// returned. One process at a time.
+class SessionFolder {
+ public:
+  /// Makes a session of the folder, which may exist. Throws InputError where it already is one.
+  static void create(const std::filesystem::path& path, const ScanPlanningOptions& options);
+
+  /// Opens it and removes what unfinished writes left. Throws InputError where the folder is no session, Error where
+  /// another process has it open.
+  explicit SessionFolder(const std::filesystem::path& path);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const ScanPlanningOptions& options() const { return options_; }
+  /// What had to be left out, one sentence each; for the one who opens it.
+  [[nodiscard]] const std::vector<std::string>& dropped() const { return dropped_; }
+
+  /// Numbers of the scans, ascending.
+  [[nodiscard]] const std::vector<int>& scans() const { return scans_; }
+  /// Writes a scan; it is safe on disk when this returns its number. Throws Error, for example where the disk is full;
+  /// the scan is then not part of the session.
+  int store(const SessionScan& scan);
+  /// Throws InputError where the file is damaged.
+  [[nodiscard]] SessionScan read(int number) const;
+  /// Renames a damaged scan, so that it is kept and no longer read.
+  void set_aside(int number, const std::string& why);
+
+  void store_located(int number, const Located& located) const;
+  /// What registration found; nothing where that is not known or damaged.
+  [[nodiscard]] std::optional<Located> located(int number) const;
+
+  /// Candidates that were skipped, with the reason.
+  [[nodiscard]] const std::map<int, std::string>& skipped() const { return skipped_; }
+  void store_skipped(const std::map<int, std::string>& skipped);
+
+ private:
+  [[nodiscard]] std::filesystem::path file(int number, const char* ending) const;
+  void list_files();
+  void read_skipped();
+
+  std::filesystem::path path_, data_;
+  ScanPlanningOptions options_;
+  std::optional<FolderLock> lock_;
+  std::vector<int> scans_;
+  int next_ = 0;
+  std::map<int, std::string> skipped_;
+  std::vector<std::string> dropped_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,38 @@
+#include "vantage/session/session_json.hpp"
+
+#include "vantage/io/run_files.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+Json status_json(const SessionStatus& status) {
+  const SessionState& state = *status.state;
+  Json json;
+  json["stored"] = status.stored;
+  json["integrated"] = status.integrated;
+  json["merged"] = status.merged;
+  for (const Label label : all_labels) json["labels"][std::string(name(label))] = state.map.count(label);
+  json["mean_quality"] = state.map.mean_quality();
+  json["distance"] = state.scans.empty() ? 0.0 : state.scans.back().distance;
+  json["radius"] = state.radius;
+  json["skipped"] = Json::array();
+  for (const auto& [candidate, reason] : status.skipped) {
+    json["skipped"].push_back({{"index", candidate}, {"reason", reason}});
+  }
+  json["dropped"] = status.dropped;
+  json["warnings"] = status.warnings;
+  return json;
+}
+
+Json session_scan_json(int number, const ScanRecord& record) {
+  Json json{{"number", number}};
+  json.update(scan_json(record));
+  json["merged"] = record.merged;
+  return json;
+}
+
+}  // namespace vantage

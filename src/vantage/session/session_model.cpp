@@ -1,0 +1,73 @@
+#include "vantage/session/session_model.hpp"
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// Gives back what was found before, or else asks another registrar and keeps what that finds.
+class KeepingRegistrar : public Registrar {
+ public:
+  KeepingRegistrar(Registrar& registrar, std::optional<Located> known)
+      : registrar_(registrar), found_(std::move(known)) {}
+  [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                               const View& believed) override {
+    if (!found_) found_ = registrar_.locate(model, scan, points, believed);
+    return *found_;
+  }
+  [[nodiscard]] const Located& found() const { return *found_; }
+
+ private:
+  Registrar& registrar_;
+  std::optional<Located> found_;
+};
+
+}  // namespace
+
+SessionModel::SessionModel(const ScanPlanningOptions& options)
+    : given_radius_(options.scene.radius),
+      box_(given_box(options.scene).value()),
+      registrar_(make_registrar(options.scene, scene_in(box_, options.scene))),
+      scans_(scene_in(box_, options.scene)) {}
+
+Located SessionModel::add(int number, const SessionScan& scan, const std::optional<Located>& known) {
+  KeepingRegistrar registrar(*registrar_, known);
+  note_candidate(scan, scans_.add(scan.name, scan.scan, scan.believed, registrar));
+  numbers_.push_back(number);
+  sum_of_distances_ += (sensor_position(scan.scan, scan.believed) - box_.center()).norm();
+  if (!box_was_seen_) box_was_seen_ = points_in(box_, scan.scan, scan.believed) > 0;
+  const auto* image = std::get_if<ImageScan>(&scan.scan);
+  if (image != nullptr && !camera_) camera_ = image->image.camera;
+  return registrar.found();
+}
+
+void SessionModel::note_candidate(const SessionScan& scan, const ScanRecord& record) {
+  if (record.merged) {
+    set_aside_.clear();
+  } else if (scan.candidate) {
+    set_aside_[*scan.candidate] = concat("its scan could not be registered: ", record.verdict);
+  }
+}
+
+SessionState SessionModel::state() const {
+  const auto count = static_cast<double>(numbers_.size());
+  return {.map = model().map,
+          .scans = model().scans,
+          .numbers = numbers_,
+          .current = scans_.current(),
+          .radius = given_radius_.value_or(count == 0 ? 0 : sum_of_distances_ / count),
+          .camera = camera_,
+          .set_aside = set_aside_,
+          .box_was_seen = box_was_seen_};
+}
+
+Planner session_planner(const ScanPlanningOptions& options, const SessionState& state,
+                        const std::map<int, std::string>& skipped) {
+  const Vec3 center = given_box(options.scene).value().center();
+  Planner planner = options.planner(view_sphere(options.scene.views, state.radius, center), state.camera);
+  for (const auto& [candidate, reason] : state.set_aside) planner.set_aside(candidate, reason);
+  for (const auto& [candidate, reason] : skipped) planner.discard(candidate, reason);
+  return planner;
+}
+
+}  // namespace vantage

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "vantage/io/scan_planning_options.hpp"
+#include "vantage/reconstruction/scan_model.hpp"
+#include "vantage/session/session_scan.hpp"
+
+namespace vantage {
+
+/// A session's state after some scan; it never changes, so that any thread may read it.
+struct SessionState {
+  VoxelMap map;
+  std::vector<ScanRecord> scans;
+  std::vector<int> numbers;              // of the scans in the session's folder
+  View current;                          // where the sensor was at the last scan
+  double radius = 0;                     // of the view sphere
+  std::optional<RangeCamera> camera;     // of the first depth image
+  std::map<int, std::string> set_aside;  // candidates whose scans failed since the map changed last, with the reason
+  bool box_was_seen = false;             // some scan has a point in the box
+};
+
+/// The scans of a session merged one after the other, exactly as `plan` merges them.
+class SessionModel {
+ public:
+  explicit SessionModel(const ScanPlanningOptions& options);
+
+  /// Merges a scan where `known` put it, or else where registration puts it. Returns what registration found.
+  Located add(int number, const SessionScan& scan, const std::optional<Located>& known);
+
+  [[nodiscard]] const ObjectModel& model() const { return scans_.model(); }
+  [[nodiscard]] SessionState state() const;
+
+ private:
+  void note_candidate(const SessionScan& scan, const ScanRecord& record);
+
+  std::optional<double> given_radius_;
+  Box3 box_;
+  std::unique_ptr<Registrar> registrar_;
+  ScanModel scans_;
+  std::vector<int> numbers_;
+  std::optional<RangeCamera> camera_;
+  std::map<int, std::string> set_aside_;
+  double sum_of_distances_ = 0;  // between box and sensor, metres
+  bool box_was_seen_ = false;
+};
+
+/// The planner for this state, with the candidates that were skipped or set aside.
+[[nodiscard]] Planner session_planner(const ScanPlanningOptions& options, const SessionState& state,
+                                      const std::map<int, std::string>& skipped);
+
+}  // namespace vantage

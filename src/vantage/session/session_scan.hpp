@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "vantage/reconstruction/registrar.hpp"
+#include "vantage/reconstruction/scan.hpp"
+
+namespace vantage {
+
+/// A scan as it comes into a session.
+struct SessionScan {
+  std::string name;              // what people call it
+  View believed;                 // the robot's pose
+  Scan scan;                     // in the sensor's frame
+  std::optional<int> candidate;  // the candidate view that it was taken from, where it was a planned one
+
+  /// Throws InputError where the scan or its pose has numbers that are not finite.
+  void validate() const;
+};
+
+/// All of a scan as bytes, the numbers to the last bit: a line of JSON, then arrays, little endian.
+[[nodiscard]] std::string scan_bytes(const SessionScan& scan);
+/// The scan that scan_bytes() wrote. Throws InputError starting with `name` where the bytes are something else.
+[[nodiscard]] SessionScan parse_scan(std::string_view bytes, const std::string& name);
+
+/// What registration found, as JSON that parse_located() reads to the last bit.
+[[nodiscard]] std::string located_text(const Located& located);
+[[nodiscard]] Located parse_located(std::string_view bytes, const std::string& name);
+
+}  // namespace vantage

@@ -1,0 +1,219 @@
+#include "vantage/session/session.hpp"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <fstream>
+#include <thread>
+
+#include "vantage/core/error.hpp"
+#include "vantage/io/atomic_file.hpp"
+#include "vantage/io/io_test_util.hpp"
+#include "vantage/session/sealed_file.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+ScanPlanningOptions small_options() {
+  ScanPlanningOptions options;
+  options.scene.box = Eigen::Matrix<double, 6, 1>{{0.0, 0.0, 0.0, 1.0, 1.0, 1.0}};
+  options.scene.voxel = 0.1;
+  options.scene.views = 20;
+  options.scene.registration = "none";
+  return options;
+}
+
+/// A square plate of 0.4 m in the middle of the box, seen from `position`; what is beside it is not met.
+SessionScan plate_from(const Vec3& position) {
+  RangeImage image{camera_from_apertures(radians(45), radians(45), {40, 40}), {}};
+  image.camera.max_depth = 4.5;
+  const View view = view_towards(position, Vec3::Zero());
+  const Vec3 normal = position.normalized();
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 40; ++column) {
+      const Vec3 ray = view.world_from_sensor.linear() * point_in_sensor(image.camera.rays(), column, row, 1);
+      const double depth = -normal.dot(position) / normal.dot(ray);
+      const Vec3 hit = position + depth * ray;
+      image.depth.push_back(hit.cwiseAbs().maxCoeff() < 0.2 ? static_cast<float>(depth) : RangeImage::no_return);
+    }
+  }
+  return {"plate", view, scan_of(std::move(image)), std::nullopt};
+}
+
+std::vector<SessionScan> some_scans() {
+  return {plate_from({0, 0, 2}), plate_from({1.5, 0.5, 1}), plate_from({-1, 1.5, 0.8}), plate_from({0.3, -2, 0.4})};
+}
+
+bool same_map(const VoxelMap& a, const VoxelMap& b) {
+  const IndexBox& box = a.enclosure();
+  for (int z = box.min.z(); z <= box.max.z(); ++z) {
+    for (int y = box.min.y(); y <= box.max.y(); ++y) {
+      for (int x = box.min.x(); x <= box.max.x(); ++x) {
+        const Index3 voxel(x, y, z);
+        if (a.label(voxel) != b.label(voxel)) return false;
+        const SurfaceVoxel *left = a.surface(voxel), *right = b.surface(voxel);
+        if (left != nullptr && (left->normal_sum != right->normal_sum || left->quality != right->quality)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+TEST(Session, GoesOnAfterARestartWithTheSameMapAndPlan) {
+  const TestFolder folder;
+  Session::create(folder / "at once", small_options());
+  Session::create(folder / "restarted", small_options());
+  Session at_once(folder / "at once");
+  for (const SessionScan& scan : some_scans()) {
+    (void)at_once.add(scan);
+    (void)Session(folder / "restarted").add(scan);
+  }
+  Session restarted(folder / "restarted");
+  const SessionPlan plan = at_once.next(), again = restarted.next();
+  EXPECT_EQ(plan.state->scans.size(), 4U);
+  EXPECT_GT(plan.state->map.count(Label::occupied), 0);
+  EXPECT_TRUE(same_map(plan.state->map, again.state->map));
+  ASSERT_TRUE(plan.plan && again.plan);
+  EXPECT_EQ(plan.plan->best.candidate, again.plan->best.candidate);
+  EXPECT_EQ(plan.plan->best.utility, again.plan->best.utility);
+}
+
+TEST(Session, MergesWhatWasStoredButNotYetMergedBeforeItEnded) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  {
+    Session session(folder / "s");
+    (void)session.add(some_scans()[0]);
+    EXPECT_EQ(session.store(some_scans()[1]), 1);
+    EXPECT_EQ(session.status().stored, 2U);
+    EXPECT_EQ(session.status().integrated, 1U);
+  }
+  Session session(folder / "s");
+  EXPECT_EQ(session.status().integrated, 2U);
+  EXPECT_THAT(session.next().state->numbers, ElementsAre(0, 1));
+}
+
+TEST(Session, LeavesOutADamagedScanAndSaysSo) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  for (const SessionScan& scan : some_scans()) (void)Session(folder / "s").add(scan);
+  // Cut off in every way that a disk may: nothing, half, all but the last byte.
+  const std::filesystem::path file = folder / "s" / "session" / "000002.scan";
+  const std::string whole = read_file(file);
+  int cases = 0;
+  for (const std::size_t size : {std::size_t{0}, whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(file, std::ios::binary).write(whole.data(), static_cast<std::streamsize>(size));
+    Session session(folder / "s");
+    EXPECT_EQ(session.status().integrated, 3U);
+    EXPECT_THAT(session.status().dropped, ElementsAre(HasSubstr("left out scan 2")));
+    EXPECT_EQ(session.store(some_scans()[0]), 4 + cases) << "a number is given out once";
+    std::filesystem::remove(folder / "s" / "session" / ("00000" + std::to_string(4 + cases) + ".scan"));
+    std::filesystem::remove(folder / "s" / "session" / "000002.damaged");
+    std::ofstream(folder / "s" / "session" / ("00000" + std::to_string(4 + cases) + ".damaged"));
+    ++cases;
+  }
+  EXPECT_EQ(cases, 3);
+}
+
+TEST(Session, IsOpenOnce) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  const Session session(folder / "s");
+  EXPECT_THAT(error_of([&] { const Session second(folder / "s"); }),
+              HasSubstr("another process has this session open"));
+}
+
+TEST(Session, KeepsWhichViewsWereSkipped) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  int best = -1, second = -1;
+  {
+    Session session(folder / "s");
+    (void)session.add(some_scans()[0]);
+    const auto plan = session.next().plan;
+    best = plan->ranking[0].candidate;
+    second = plan->ranking[1].candidate;
+    session.skip(best, "a cable is in the way");
+    EXPECT_EQ(session.next().plan->best.candidate, second);
+  }
+  Session session(folder / "s");
+  EXPECT_EQ(session.next().plan->best.candidate, second);
+  session.unskip(best);
+  EXPECT_EQ(session.next().plan->best.candidate, best);
+  EXPECT_THAT(input_error_of([&] { session.unskip(best); }), HasSubstr("was not skipped"));
+  EXPECT_THAT(input_error_of([&] { session.skip(20, "far"); }), HasSubstr("0 .. 19"));
+}
+
+TEST(Session, AnswersManyThreadsAndKeepsEveryScan) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  std::atomic<int> answers = 0;
+  {
+    Session session(folder / "s");
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+      threads.emplace_back([&] {
+        for (const SessionScan& scan : some_scans()) {
+          const ScanRecord record = session.add(scan);
+          const SessionPlan plan = session.next();
+          if (plan.plan && record.merged && plan.state->scans.size() <= 16) ++answers;
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(session.status().integrated, 16U);
+  }
+  EXPECT_EQ(answers, 16);
+  EXPECT_EQ(Session(folder / "s").status().integrated, 16U);
+}
+
+TEST(SessionScan, IsTheSameAfterStoring) {
+  PointScan lines;
+  lines.points = {{0.1, 0.2, 0.30000000000000004}, {1, -0.0, 2}};
+  lines.normals = {{0, 0, -1}, {0, 0, 0}};
+  lines.origins = {{0.1, 0.18, 1.3}, {1, 0.18, 1.3}};
+  lines.axis = -Vec3::UnitZ();
+  SessionScan scan{"a \"name\"", view_towards({1, 2, 3}, {0.1, 0.2, 0.3}), lines, 17};
+  const SessionScan read = parse_scan(scan_bytes(scan), "scan");
+  const auto& points = std::get<PointScan>(read.scan);
+  EXPECT_EQ(read.name, scan.name);
+  EXPECT_EQ(read.candidate, 17);
+  EXPECT_EQ(read.believed.world_from_sensor.matrix(), scan.believed.world_from_sensor.matrix());
+  EXPECT_EQ(points.points, lines.points);
+  EXPECT_EQ(points.normals, lines.normals);
+  EXPECT_EQ(points.origins, lines.origins);
+  EXPECT_EQ(points.axis, lines.axis);
+
+  const SessionScan plate = plate_from({1, 2, 3});
+  const SessionScan plate_read = parse_scan(scan_bytes(plate), "scan");
+  EXPECT_EQ(std::get<ImageScan>(plate_read.scan).image.depth, std::get<ImageScan>(plate.scan).image.depth);
+  EXPECT_EQ(std::get<ImageScan>(plate_read.scan).image.camera.left, std::get<ImageScan>(plate.scan).image.camera.left);
+}
+
+TEST(SessionScan, DamagedBytesAreReadOrRefused) {
+  const FuzzCount count = read_damaged(scan_bytes(plate_from({0, 0, 2})), 2000,
+                                       [](const std::string& bytes) { (void)parse_scan(bytes, "scan"); });
+  EXPECT_GT(count.refused, 500);
+  EXPECT_EQ(count.accepted + count.refused, 2000);
+}
+
+TEST(SealedFile, TellsEveryChangeOfAByte) {
+  // The check value of CRC-32 (ISO-HDLC) for "123456789" is published: cbf43926.
+  EXPECT_EQ(sealed("123456789"), "123456789\ncrc32 cbf43926\n");
+  const std::string whole = sealed("123456789");
+  EXPECT_EQ(unsealed(whole, "file"), "123456789");
+  int cases = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i, ++cases) {
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 4);
+    EXPECT_THAT(input_error_of([&] { (void)unsealed(changed, "file"); }), HasSubstr("file: is damaged"));
+  }
+  EXPECT_EQ(cases, 25);
+  EXPECT_THAT(input_error_of([&] { (void)unsealed("short", "file"); }), HasSubstr("cut off"));
+}
+
+}  // namespace
+}  // namespace vantage

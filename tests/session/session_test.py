@@ -1,0 +1,243 @@
+"""Sessions as a robot uses them: processes that are killed at any moment, full disks, two processes at once, and the same
+answer as `plan`. Usage: session_test.py VANTAGE SHARED_DATA KILLS [unittest options]"""
+import json
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+VANTAGE, DATA, KILLS = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), int(sys.argv.pop(1))
+SMALL = ["--voxel", "0.08", "--scene", "51,51,51", "--enclosure", "13,13,13", "--camera", "45x45:80x80",
+         "--candidates", "sphere:20:2"]
+STORED = re.compile(r"^stored scan +(\d+) ", re.MULTILINE)
+BOX = "--box=0,0,0,1.04,1.04,1.04"
+
+
+def run(*arguments, **keywords):
+    return subprocess.run([VANTAGE, *map(str, arguments)], capture_output=True, text=True, timeout=600, **keywords)
+
+
+def succeed(*arguments):
+    result = run(*arguments)
+    if result.returncode != 0:
+        raise AssertionError(f"{arguments}: exit {result.returncode}: {result.stderr}")
+    return result.stdout
+
+
+class Sessions(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.root = pathlib.Path(cls.scratch.name)
+        succeed("reconstruct", "mug", "--out", cls.root / "mug", "--no-report", "--quiet", "--max-views", "6", *SMALL)
+        cls.frames = sorted((cls.root / "mug" / "scans").glob("*.depth.png"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def new(self, name, *options):
+        folder = self.root / name
+        shutil.rmtree(folder, ignore_errors=True)
+        succeed("session", "new", folder, BOX, "--views", "20", "--config", self.root / "mug" / "scans" / "scans.yaml",
+                *options)
+        return folder
+
+    def status(self, folder):
+        return json.loads(succeed("session", "status", folder, "--json"))
+
+    def assert_same_as_plan(self, scans, frames, name, options):
+        """The scans at once by plan, and one by one by a process each, with verdicts forgotten on the way."""
+        folder = self.root / name
+        succeed("session", "new", folder, *options)
+        for number, frame in enumerate(frames):
+            succeed("session", "add", folder, frame)
+            if number == len(frames) // 2:
+                (folder / "session" / f"{number:06}.located").unlink()
+        planned = json.loads(succeed("plan", scans, *options, "--json", "--out", self.root / (name + ".plan")))
+        self.assertEqual(json.loads(succeed("session", "next", folder, "--json")), planned)
+        self.assertIsNotNone(planned["next"])
+        succeed("session", "finish", folder)
+        for file in ["map.nrrd", "map.ply", "model.ply", "mesh.ply", "views.csv"]:
+            self.assertEqual((folder / file).read_bytes(), (self.root / (name + ".plan") / file).read_bytes(), file)
+
+
+class Kills(Sessions):
+    def kill_once(self, folder, generator, seconds):
+        """Adds all frames and kills that: after a while, or while a file is being written. Numbers that were acknowledged."""
+        process = subprocess.Popen([VANTAGE, "session", "add", str(folder), *map(str, self.frames)],
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        end = time.monotonic() + generator.uniform(0, seconds)
+        if generator.random() < 0.5:
+            while time.monotonic() < end and process.poll() is None:
+                time.sleep(0.0005)
+        else:
+            writes = generator.randrange(1, 12)
+            while writes > 0 and process.poll() is None:
+                writes -= any(file.suffix == ".tmp" for file in (folder / "session").iterdir())
+        process.kill()
+        output, _ = process.communicate()
+        return [int(number) for number in STORED.findall(output)]
+
+    def test_no_acknowledged_scan_is_lost(self):
+        generator = random.Random(5)
+        killed = unfinished = lost = 0
+        for round_ in range(KILLS):
+            if round_ % 8 == 0:
+                folder = self.new("killed", "--registration", ["none", "icp"][round_ // 8 % 2])
+                start = time.monotonic()
+                succeed("session", "add", folder, *self.frames)
+                seconds = 1.2 * (time.monotonic() - start)
+                acknowledged = set(range(len(self.frames)))
+            numbers = self.kill_once(folder, generator, seconds)
+            acknowledged.update(numbers)
+            killed += len(numbers) < len(self.frames)
+            result = run("session", "status", folder, "--json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            unfinished += "never finished" in result.stderr
+            status = json.loads(result.stdout)
+            stored = {int(file.stem) for file in (folder / "session").glob("*.scan")}
+            lost += len(acknowledged - stored)
+            self.assertEqual(status["stored"], len(stored))
+            self.assertEqual(status["integrated"], len(stored))
+        self.assertEqual(lost, 0)
+        self.assertGreater(killed, KILLS // 2, "the kills came too late to show anything")
+        print(f"{KILLS} runs: {killed} killed before their end, {unfinished} left an unfinished file, {lost} lost",
+              file=sys.stderr)
+
+
+class FullDisk(Sessions):
+    def check_full(self, folder, add):
+        stored = self.status(folder)["stored"]
+        result = add()
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertRegex(result.stderr, r"\.scan: .*(No space left|File too large)")
+        acknowledged = stored + len(STORED.findall(result.stdout))
+        self.assertEqual(self.status(folder)["stored"], acknowledged)
+        self.assertFalse([file for file in (folder / "session").iterdir() if file.suffix == ".tmp"])
+
+    def test_file_too_large(self):
+        folder = self.new("limited")
+        succeed("session", "add", folder, self.frames[0])
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+        # Python ignores SIGXFSZ, and without restore_signals so does the program.
+        self.check_full(folder, lambda: run("session", "add", folder, self.frames[1], preexec_fn=limit,
+                                            restore_signals=False))
+        succeed("session", "add", folder, self.frames[1])
+        self.assertEqual(self.status(folder)["stored"], 2)
+
+    def test_no_space(self):
+        disk = self.root / "disk"
+        disk.mkdir(exist_ok=True)
+        if os.geteuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=100k", "none", disk],
+                                               capture_output=True).returncode != 0:
+            self.skipTest("needs to mount a small disk")
+        try:
+            folder = self.new("disk/session")
+            self.check_full(folder, lambda: run("session", "add", folder, *self.frames))
+            self.assertGreater(self.status(folder)["stored"], 0)
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+
+class OneAtATime(Sessions):
+    def test_the_second_process_is_refused(self):
+        folder = self.new("shared")
+        import fcntl
+        with open(folder / "session" / ".lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            result = run("session", "status", folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("another process has this session open", result.stderr)
+        succeed("session", "status", folder)
+
+
+class Misuse(Sessions):
+    def test_errors(self):
+        folder = self.new("misused")
+        for arguments, text in [
+                (["new", folder, BOX], "already is a session"),
+                (["new", self.root / "boxless"], "box: a session needs"),
+                (["status", self.root / "mug"], "is no session"),
+                (["add", folder, self.root / "none.depth.png"], "no such file"),
+                (["add", folder, self.root / "mug" / "summary.json"], "is no scan"),
+                (["next", folder, "--skip", "20", "--reason", "far"], "must be one of the views 0 .. 19"),
+                (["next", folder, "--skip", "3"], "reason: must say why"),
+                (["next", folder, "--unskip", "3"], "was not skipped")]:
+            with self.subTest(arguments=arguments):
+                result = run("session", *arguments)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn(text, result.stderr)
+        self.assertIn("there is no scan yet", succeed("session", "next", folder))
+
+
+class Answers(Sessions):
+    def test_a_skipped_view_stays_skipped(self):
+        folder = self.new("skipping")
+        succeed("session", "add", folder, self.frames[0])
+        first = json.loads(succeed("session", "next", folder, "--json"))
+        best, second = first["ranking"][0]["index"], first["ranking"][1]["index"]
+        succeed("session", "next", folder, "--skip", best, "--reason", "a cable is in the way")
+        after = json.loads(succeed("session", "next", folder, "--json"))
+        self.assertEqual(after["next"]["index"], second)
+        self.assertIn({"index": best, "reason": "a cable is in the way"}, after["infeasible"])
+        self.assertEqual(self.status(folder)["skipped"], [{"index": best, "reason": "a cable is in the way"}])
+        succeed("session", "next", folder, "--unskip", best)
+        self.assertEqual(json.loads(succeed("session", "next", folder, "--json")), first)
+
+    def test_a_damaged_scan_is_left_out_and_kept(self):
+        folder = self.new("damaged")
+        succeed("session", "add", folder, *self.frames[:3])
+        file = folder / "session" / "000001.scan"
+        data = bytearray(file.read_bytes())
+        data[len(data) // 2] ^= 1
+        file.write_bytes(data)
+        result = run("session", "status", folder, "--json")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("left out scan 1", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["stored"], 2)
+        self.assertTrue(file.with_suffix(".damaged").exists())
+        self.assertIn("stored scan   3 ", succeed("session", "add", folder, self.frames[3]), "numbers are not used twice")
+
+    def test_mug(self):
+        part = self.root / "mug" / "part"
+        shutil.copytree(self.root / "mug" / "scans", part)
+        for frame in self.frames[3:]:
+            (part / frame.name).unlink()
+        self.assert_same_as_plan(part, sorted(part.glob("*.depth.png")), "mug.session",
+                                 [BOX, "--views", "20", "--config", part / "scans.yaml"])
+
+
+class RealScans(Sessions):
+    """Slow: only where many kills are asked for."""
+
+    def setUp(self):
+        if KILLS < 100 or not DATA.is_dir():
+            self.skipTest("slow, and needs the real scans")
+
+    def test_ur5_tray(self):
+        scans = DATA / "scans" / "ur5_tray"
+        self.assert_same_as_plan(scans, sorted(scans.glob("*.depth.png")), "tray",
+                                 ["--box=-0.11,-0.29,0.09,0.36,0.24,0.12", "--depth-range", "0.25,1.5",
+                                  "--workspace=-1,-1.2,0.1,1,0.6,1.5"])
+
+    def test_apc_shelf(self):
+        scans = DATA / "scans" / "apc_shelf"
+        self.assert_same_as_plan(scans, sorted(scans.glob("*.depth.png")), "shelf",
+                                 ["--box=1.683,-0.003,1.142,0.425,0.327,0.27", "--depth-range", "0.15,1.2", "--depth-scale", "0.0001",
+                                  "--poses", "pose_robot"])
+
+
+if __name__ == "__main__":
+    unittest.main()
