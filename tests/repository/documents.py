@@ -14,6 +14,8 @@ OPTION = re.compile(r"(?:^|\s)(--[a-z][a-z-]*)")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 # Commands of the wrapper script, not of the program.
 WRAPPER_COMMANDS = {"test"}
+# Commands whose next word is a command too.
+COMMANDS_WITH_STEPS = {"session"}
 
 
 def commands(text):
@@ -26,7 +28,9 @@ def commands(text):
         is_code = in_block or line.startswith("    ")
         for piece in [line] if is_code else re.findall(r"`[^`]+`", line):
             for match in COMMAND.finditer(piece):
-                found.append((number, match[1], OPTION.findall(match[2])))
+                step = re.match(r"[ ]+([a-z]+)(?=[ ]|$)", match[2]) if match[1] in COMMANDS_WITH_STEPS else None
+                command = f"{match[1]} {step[1]}" if step else match[1]
+                found.append((number, command, OPTION.findall(match[2])))
     return found
 
 
@@ -50,8 +54,10 @@ class Program:
     def help(self, command=None):
         """The help text of a command, None where there is no such command; without a command the program's own."""
         if command not in self.help_texts:
-            known = command is None or re.search(rf"^\s+{re.escape(command)}\s", self.help(), re.MULTILINE)
-            self.help_texts[command] = self.output(*([command] if command else []), "--help") if known else None
+            words = command.split() if command else []
+            parent = self.help(" ".join(words[:-1]) or None) if words else None
+            known = not words or (parent and re.search(rf"^\s+{re.escape(words[-1])}\s", parent, re.MULTILINE))
+            self.help_texts[command] = self.output(*words, "--help") if known else None
         return self.help_texts[command]
 
     def why_wrong(self, command, options):

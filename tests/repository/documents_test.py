@@ -8,13 +8,15 @@ import documents
 
 
 class FakeProgram(documents.Program):
-    """Has the command `plan` with `--top`, and `--version`."""
+    """Has the commands `plan` with `--top` and `session add` with `--candidate`, and `--version`."""
 
     def __init__(self):
         super().__init__(path=None)
 
     def output(self, *arguments):
-        return {("--help",): "  --version\n  plan  says where to look\n", ("plan", "--help"): "  --top N  how many",
+        return {("--help",): "  --version\n  plan  says where to look\n  session  goes on\n",
+                ("plan", "--help"): "  --top N  how many", ("session", "--help"): "  add  takes a scan\n",
+                ("session", "add", "--help"): "  --candidate N  the view",
                 ("config", "--markdown"): "| top | 5 |\n"}.get(arguments)
 
 
@@ -35,6 +37,11 @@ class Documents(unittest.TestCase):
         self.assertEqual(["a.md:1: vantage has no command fly"], self.messages("`vantage fly`"))
         self.assertEqual(["a.md:1: vantage plan has no option --speed"], self.messages("`vantage plan x --speed 3`"))
         self.assertEqual(["a.md:1: vantage has no option --wings"], self.messages("`vantage --wings`"))
+
+    def test_steps_of_a_command_have_options_of_their_own(self):
+        self.assertEqual([], self.messages("`vantage session add DIR --candidate 3`, `vantage session`"))
+        self.assertEqual(["a.md:1: vantage session add has no option --top"], self.messages("`vantage session add D --top 3`"))
+        self.assertEqual(["a.md:1: vantage has no command session go"], self.messages("`vantage session go`"))
 
     def test_links_to_missing_files_are_found(self):
         self.assertEqual([], self.messages("[a](there.md#part) [b](https://example.org/x)"))
