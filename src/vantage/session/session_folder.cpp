@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* data_folder = "session";
 constexpr const char* options_file = "options.yaml";
 constexpr const char* skipped_file = "skipped.json";
-constexpr const char* in_use = "another process has this session open; end it, or ask it over HTTP (vantage serve)";
+constexpr const char* in_use = "another process has this session open; end it, or wait for it";
 
 /// The number that a file's name stands for, where it has this ending.
 std::optional<int> number_of(const fs::path& file, const char* ending) {
