@@ -21,7 +21,7 @@ vantage_require(full yaml-cpp)
 vantage_require(full PNG)
 vantage_require(full liblzf)
 vantage_require(full ZLIB)
-vantage_library(full reconstruction io session experiments)
+vantage_library(full reconstruction io session doctor experiments)
 target_link_libraries(vantage_full
   PUBLIC vantage_core vantage_registration vantage_simulation vantage_arm nlohmann_json::nlohmann_json
   PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf ZLIB::ZLIB)

@@ -7,6 +7,7 @@ namespace vantage::app {
 // Each adds one subcommand to the program; see the file of that name.
 void add_reconstruct(CLI::App& program);
 void add_plan(CLI::App& program);
+void add_doctor(CLI::App& program);
 void add_config(CLI::App& program);
 void add_experiment(CLI::App& program);
 void add_evaluate(CLI::App& program);

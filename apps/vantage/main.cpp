@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   vantage::app::add_reconstruct(program);
   vantage::app::add_plan(program);
   vantage::app::add_session(program);
+  vantage::app::add_doctor(program);
   vantage::app::add_evaluate(program);
   vantage::app::add_experiment(program);
   vantage::app::add_config(program);
@@ -44,6 +45,8 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help and --version
     return program.exit(wanted);
+  } catch (const CLI::RuntimeError& ended) {  // the command has said why
+    return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const std::string unknown = unknown_command(program, argc, argv);
     std::cerr << "vantage: " << (unknown.empty() ? error.what() : unknown)

@@ -26,6 +26,7 @@ FOLDERS = {
     "io": (8, ["reconstruction", "arm"]),
     "session": (9, ["io"]),
     "experiments": (9, ["io"]),
+    "doctor": (9, ["io"]),
     "server": (9, ["io"]),
 }
 

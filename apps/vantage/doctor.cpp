@@ -1,0 +1,78 @@
+#include "vantage/doctor/doctor.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli_options.hpp"
+#include "commands.hpp"
+#include "program_options.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage::app {
+namespace {
+
+struct Request {
+  std::string scans;
+  DoctorOptions options;
+  ProgramOptions program;
+};
+
+nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis) {
+  nlohmann::ordered_json json{{"healthy", diagnosis.healthy()},   {"frames", diagnosis.frames},
+                              {"agreement", diagnosis.agreement}, {"best_agreement", diagnosis.best_agreement},
+                              {"checks", diagnosis.checks},       {"findings", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : diagnosis.findings) {
+    json["findings"].push_back(
+        {{"check", finding.check}, {"wrong", finding.wrong}, {"mend", finding.mend}, {"evidence", finding.evidence}});
+  }
+  return json;
+}
+
+void print_diagnosis(const Diagnosis& diagnosis) {
+  for (const CheckName& check : doctor_checks()) {
+    bool content = true;
+    for (const Finding& finding : diagnosis.findings) {
+      if (finding.check != check.name) continue;
+      content = false;
+      fmt::print("WRONG  {:<14}  {}\n       {:<14}  mend: {}\n       {:<14}  because {}\n", check.name, finding.wrong,
+                 "", finding.mend, "", finding.evidence);
+    }
+    if (content) fmt::print("ok     {:<14}  looked for {}\n", check.name, check.looks_for);
+  }
+  fmt::print("{} frames; as given they share {:.1f} % of their points with each other\n", diagnosis.frames,
+             100 * diagnosis.agreement);
+  if (!diagnosis.healthy()) fmt::print("{} to mend\n", diagnosis.findings.size());
+}
+
+void doctor(const Request& request) {
+  const auto threads = limit_threads(request.program.threads);
+  const bool shows_progress = !request.program.quiet && isatty(STDERR_FILENO) != 0;
+  const Diagnosis diagnosis = examine(request.scans, request.options, [&](const std::string& what) {
+    if (shows_progress) fmt::print(stderr, "\r\033[K{}", what);
+  });
+  if (shows_progress) fmt::print(stderr, "\r\033[K");
+  if (request.program.json) {
+    fmt::print("{}\n", diagnosis_json(diagnosis).dump(2));
+  } else {
+    print_diagnosis(diagnosis);
+  }
+  if (!diagnosis.healthy()) throw CLI::RuntimeError(1);
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& program) {
+  auto request = std::make_shared<Request>();
+  CLI::App* command = program.add_subcommand("doctor", "Find what is wrong with real scans, and say how to mend it");
+  command->add_option("scans", request->scans, "folder of depth frames or clouds with poses, or a Stanford .conf")
+      ->required();
+  add_options(*command, request->options);
+  add_program_options(*command, request->program);
+  command->footer("Exit code: 0 where all is well, 1 where something is wrong, 2 for misuse.");
+  command->callback([request] { doctor(*request); });
+}
+
+}  // namespace vantage::app

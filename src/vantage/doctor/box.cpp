@@ -1,0 +1,79 @@
+#include "vantage/doctor/box.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+using BoxNumbers = Eigen::Matrix<double, 6, 1>;
+
+std::vector<Vec3> world_points(const Evidence& evidence, const Reading& reading) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < evidence.frames.size(); ++i) {
+    for (const Vec3& point : points_of(evidence.frames[i], reading).points) {
+      points.push_back(reading.world_from_sensor[i] * point);
+    }
+  }
+  return points;
+}
+
+std::size_t points_within(const Box3& box, const std::vector<Vec3>& points) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return box.contains(p); }));
+}
+
+Box3 around_center(const BoxNumbers& numbers) {
+  return {numbers.head<3>() - 0.5 * numbers.tail<3>(), numbers.head<3>() + 0.5 * numbers.tail<3>()};
+}
+
+double percentile(std::vector<double>& values, double share) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Where most of the points are.
+BoxNumbers middle_of(const std::vector<Vec3>& points) {
+  BoxNumbers numbers;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Vec3& point : points) values.push_back(point[axis]);
+    const double low = percentile(values, 0.1), high = percentile(values, 0.9);
+    numbers[axis] = 0.5 * (low + high);
+    numbers[axis + 3] = high - low;
+  }
+  return numbers;
+}
+
+std::string text_of(const BoxNumbers& numbers) {
+  std::string text;
+  for (const double number : numbers) text += concat(text.empty() ? "" : ",", std::round(1000 * number) / 1000);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Finding> check_box(const Evidence& evidence, const Reading& reading, const BoxNumbers& box) {
+  const std::vector<Vec3> points = world_points(evidence, reading);
+  if (points.empty() || points_within(around_center(box), points) > 0) return {};
+  Finding finding{"box", concat("no frame has a point in the box ", text_of(box)), {}, {}};
+  const BoxNumbers where = middle_of(points);
+  finding.evidence = concat("eight tenths of the points lie, per axis, in ", text_of(where));
+  const BoxNumbers millimetres = box / 1000;
+  if (const Box3 corners(box.head<3>(), box.tail<3>()); !corners.isEmpty() && points_within(corners, points) > 0) {
+    BoxNumbers mended;
+    mended << corners.center(), corners.sizes();
+    finding.mend = concat("the numbers look like two corners; give center and sizes: --box=", text_of(mended));
+  } else if (points_within(around_center(millimetres), points) > 0) {
+    finding.mend = concat("the numbers look like millimetres; give metres: --box=", text_of(millimetres));
+  } else {
+    finding.mend = concat("give the box in the frame that the poses are in, for example --box=", text_of(where));
+  }
+  return {finding};
+}
+
+}  // namespace vantage

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/doctor/finding.hpp"
+#include "vantage/io/scan_folder.hpp"
+#include "vantage/reconstruction/from_scans.hpp"
+
+namespace vantage {
+
+struct DoctorOptions {
+  ScanFolderOptions folder;                          // how the scans would be read
+  std::optional<Eigen::Matrix<double, 6, 1>> box;    // where the object should be: cx cy cz sx sy sz, metres
+  double pose_error = ScanPlanOptions{}.pose_error;  // metres; what registration would search
+
+  /// Throws InputError naming the option.
+  void validate() const;
+};
+
+template <class Field>
+void describe(DoctorOptions& o, Field&& field) {
+  field("box", o.box, "m", "where the object is: cx,cy,cz,sx,sy,sz; not checked if not given");
+  field("pose-error", o.pose_error, "m", "how far off the poses may be at most");
+  describe(o.folder, field);
+}
+
+/// What is wrong with a set of scans.
+struct Diagnosis {
+  std::size_t frames = 0;
+  double agreement = 0;             // between the frames as given, 0..1; 0 where the poses cannot be read at all
+  double best_agreement = 0;        // as they are best explained
+  std::vector<std::string> checks;  // what was looked at, by name
+  std::vector<Finding> findings;
+
+  [[nodiscard]] bool healthy() const { return findings.empty(); }
+};
+
+/// Names of all checks, in the order in which they are made, and what each looks for.
+struct CheckName {
+  const char* name;
+  const char* looks_for;
+};
+[[nodiscard]] const std::vector<CheckName>& doctor_checks();
+
+/// Examines the scans at `path` as open_scans() would read them. `progress` gets a line about what is being done.
+/// Throws InputError for what open_scans() refuses, except for poses that it can mend itself to look on.
+[[nodiscard]] Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& options,
+                                const std::function<void(const std::string&)>& progress);
+
+}  // namespace vantage

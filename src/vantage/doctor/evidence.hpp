@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/io/scan_folder.hpp"
+
+namespace vantage {
+
+/// What the doctor keeps of one frame.
+struct FrameEvidence {
+  std::string name;
+  Pose world_from_sensor;   // as given
+  PointCloud cloud;         // thinned out evenly, sensor frame, metres as read; no depth limit applied
+  double median_depth = 0;  // distance from the sensor, metres; 0 without points
+  // Shares of the pixels of a depth image; 0 for clouds, which have none.
+  double unknown = 0, no_return = 0;  // the latter also where it is beyond the far limit
+};
+
+/// All frames of a set.
+struct Evidence {
+  std::vector<FrameEvidence> frames;
+  std::optional<RangeCamera> camera;  // of depth images
+
+  [[nodiscard]] std::vector<Pose> poses() const;
+  /// Over all frames.
+  [[nodiscard]] double median_depth() const;
+};
+
+/// Reads every frame once. `far_limit`: depth in metres from which on an image says that nothing is there.
+/// `progress(done, of)` is called after each.
+[[nodiscard]] Evidence gather(const ScanSet& set, double far_limit,
+                              const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace vantage

@@ -1,0 +1,71 @@
+#include "vantage/doctor/readable_poses.hpp"
+
+#include <unistd.h>
+
+#include "vantage/core/error.hpp"
+#include "vantage/core/geometry.hpp"
+#include "vantage/io/pose_file.hpp"
+#include "vantage/io/pose_source.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path new_folder() {
+  std::string pattern = (fs::temp_directory_path() / "vantage-doctor-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw Error(concat(pattern, ": cannot be created"));
+  return pattern;
+}
+
+bool is_mirrored(const std::vector<RawPose>& poses) {
+  for (const RawPose& pose : poses) {
+    if (pose.matrix.topLeftCorner<3, 3>().determinant() < 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ReadablePoses::ReadablePoses(const fs::path& scans, const ScanFolderOptions& options) {
+  const fs::path folder = options.poses.empty() ? scans : below(scans, options.poses);
+  if (!fs::is_directory(folder)) return;
+  const std::vector<RawPose> poses = raw_poses(folder);
+  findings_ = check_rotations(poses);
+  if (findings_.empty()) return;
+  const int wanted = is_mirrored(poses) ? 4 : 1;
+  ways_ = 0;
+  for (int way = 0; way < wanted; ++way) {
+    const auto mended_poses = mended(poses, way);
+    if (!mended_poses) return;
+    if (copies_.empty()) copies_ = new_folder();
+    fs::create_directory(copies_ / std::to_string(way));
+    for (const RawPose& pose : *mended_poses) {
+      write_pose(copies_ / std::to_string(way) / pose.file.filename(),
+                 rigid_pose(pose.matrix, pose.file.string(), 0.05));
+    }
+    ++ways_;
+  }
+}
+
+ReadablePoses::~ReadablePoses() {
+  std::error_code ignored;
+  if (!copies_.empty()) fs::remove_all(copies_, ignored);
+}
+
+ScanFolderOptions ReadablePoses::options(ScanFolderOptions options, int way) const {
+  if (!copies_.empty()) options.poses = (copies_ / std::to_string(way)).string();
+  return options;
+}
+
+std::string ReadablePoses::mend(int way) {
+  if (way == 3)
+    return "the frames agree: the world is mirrored; negate the z row of every matrix (or x, or y, but one)";
+  return concat("negate the ",
+                way == 0   ? "first"
+                : way == 1 ? "second"
+                           : "third",
+                " column of every matrix: the camera's ", "xyz"[way], " axis points the wrong way");
+}
+
+}  // namespace vantage

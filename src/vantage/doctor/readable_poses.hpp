@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "vantage/doctor/pose_files.hpp"
+#include "vantage/io/scan_folder.hpp"
+
+namespace vantage {
+
+/// The poses of a folder in a form that the reader of scans takes: as they are where they are rigid, else mended copies
+/// in a temporary folder, which is removed in the end. Mirrored ones can be mended in several ways.
+class ReadablePoses {
+ public:
+  ReadablePoses(const std::filesystem::path& scans, const ScanFolderOptions& options);
+  ~ReadablePoses();
+  ReadablePoses(const ReadablePoses&) = delete;
+  ReadablePoses& operator=(const ReadablePoses&) = delete;
+
+  /// What is wrong with the matrices.
+  [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
+  /// False where no copy could be mended.
+  [[nodiscard]] bool readable() const { return ways_ > 0; }
+  /// In how many ways they can be read.
+  [[nodiscard]] int ways() const { return ways_; }
+  /// The options to read them in one way.
+  [[nodiscard]] ScanFolderOptions options(ScanFolderOptions options, int way) const;
+  /// What to do if that way turns out to be right.
+  [[nodiscard]] static std::string mend(int way);
+
+ private:
+  std::vector<Finding> findings_;
+  std::filesystem::path copies_;  // empty where the poses are good
+  int ways_ = 1;
+};
+
+}  // namespace vantage
