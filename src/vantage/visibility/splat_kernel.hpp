@@ -158,10 +158,11 @@ struct Queue {
   }
 };
 
-/// Splats the first voxels of the queue, `visible` as in SplatBatch.
-template <class V>
+/// Splats the first voxels of the queue, `visible` as in SplatBatch. `press_stamp(stamp, lane, voxel, place, rows)`
+/// puts a stamp into the coverage and tells whether a pixel of it was free.
+template <class V, class PressStamp>
 std::size_t splat_front(const BatchView& view, const BatchRegion& region, const Queue<V>& queue,
-                        std::uint32_t* visible) {
+                        const PressStamp& press_stamp, std::uint32_t* visible) {
   using Int = typename V::Int;
   const Window<V> window = queue.front();
   const Place<V> place = place_of<V>(view, V::load(queue.values[Queue<V>::voxel]));
@@ -173,20 +174,22 @@ std::size_t splat_front(const BatchView& view, const BatchRegion& region, const 
   const int used = static_cast<int>(queue.count < V::lanes ? queue.count : V::lanes);
   std::size_t seen = 0;
   for (int lane = 0; lane < used; ++lane) {
+    const std::uint32_t voxel = queue.values[Queue<V>::voxel][lane];
     const bool is_visible =
         (special >> lane & 1U) != 0
-            ? view.splat_one(view.context, queue.values[Queue<V>::voxel][lane])
-            : press<V>(view, stamp, lane, static_cast<std::int32_t>(queue.values[Queue<V>::place][lane]),
-                       static_cast<std::int32_t>(queue.values[Queue<V>::rows][lane]));
-    visible[seen] = queue.values[Queue<V>::voxel][lane];
+            ? view.splat_one(view.context, voxel)
+            : press_stamp(stamp, lane, voxel, static_cast<std::int32_t>(queue.values[Queue<V>::place][lane]),
+                          static_cast<std::int32_t>(queue.values[Queue<V>::rows][lane]));
+    visible[seen] = voxel;
     seen += is_visible ? 1 : 0;
   }
   return seen;
 }
 
-template <class V>
-std::size_t splat_batches(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
-                          std::size_t count, std::uint32_t* visible) {
+/// All voxels of a list, batch after batch, with `press_stamp` of splat_front().
+template <class V, class PressStamp>
+std::size_t splat_all(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels, std::size_t count,
+                      const PressStamp& press_stamp, std::uint32_t* visible) {
   constexpr std::size_t lanes = V::lanes;
   Queue<V> queue;
   std::uint32_t last_batch[lanes] = {};
@@ -205,11 +208,25 @@ std::size_t splat_batches(const BatchView& view, const BatchRegion& region, cons
     if (open == 0) continue;
     queue.push(packed, window, open);
     if (queue.count < lanes) continue;
-    seen += splat_front<V>(view, region, queue, visible + seen);
+    seen += splat_front<V>(view, region, queue, press_stamp, visible + seen);
     queue.drop_front();
   }
-  if (queue.count > 0) seen += splat_front<V>(view, region, queue, visible + seen);
+  if (queue.count > 0) seen += splat_front<V>(view, region, queue, press_stamp, visible + seen);
   return seen;
+}
+
+template <class V>
+struct PressCoverage {
+  const BatchView& view;
+  bool operator()(const Stamp<V>& stamp, int lane, std::uint32_t, std::int32_t place, std::int32_t rows) const {
+    return press<V>(view, stamp, lane, place, rows);
+  }
+};
+
+template <class V>
+std::size_t splat_batches(const BatchView& view, const BatchRegion& region, const std::uint32_t* voxels,
+                          std::size_t count, std::uint32_t* visible) {
+  return splat_all<V>(view, region, voxels, count, PressCoverage<V>{view}, visible);
 }
 
 }  // namespace vantage::simd
