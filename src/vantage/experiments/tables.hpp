@@ -22,5 +22,7 @@ namespace vantage {
 /// after evaluation.
 [[nodiscard]] Experiment simple_objects_figure(const ExperimentOptions& options);
 [[nodiscard]] Experiment logo_figure(const ExperimentOptions& options);
+/// Figure 11 with other rays, errors and sensors: what the gain of convolution depends on.
+[[nodiscard]] Experiment convolution_readings_table(const ExperimentOptions& options);
 
 }  // namespace vantage
