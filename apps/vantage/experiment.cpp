@@ -1,6 +1,8 @@
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -31,11 +33,26 @@ std::string span_of_time(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60);
 }
 
-void print_progress(const SweepProgress& progress) {
-  const std::size_t finished = progress.done + progress.failed;
-  fmt::print(stderr, "\r{} stored, {} done, {} failed, {} remaining, {} left      ", progress.stored, progress.done,
-             progress.failed, progress.remaining, finished == 0 ? "? s" : span_of_time(progress.seconds_left));
-}
+/// One line that changes on a terminal; in a file, where lines stay, one a minute and a last one.
+class ProgressLine {
+ public:
+  void operator()(const SweepProgress& progress) {
+    const bool is_due = progress.seconds >= next_ || progress.remaining == 0;
+    if (!is_terminal_ && !is_due) return;
+    next_ = progress.seconds + 60;
+    const std::size_t finished = progress.done + progress.failed;
+    fmt::print(stderr, "{}{} stored, {} done, {} failed, {} remaining, {} left{}", is_terminal_ ? "\r" : "",
+               progress.stored, progress.done, progress.failed, progress.remaining,
+               finished == 0 ? "? s" : span_of_time(progress.seconds_left), is_terminal_ ? "      " : "\n");
+  }
+  void end() const {
+    if (is_terminal_) fmt::print(stderr, "\n");
+  }
+
+ private:
+  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  double next_ = 0;  // seconds since the sweep began
+};
 
 void write_part(const std::filesystem::path& folder, const ExperimentReport::Part& part) {
   std::visit([&folder](const auto& p) { write_file_atomically(folder / (p.name + ".csv"), csv(p)); }, part);
@@ -72,10 +89,11 @@ std::optional<std::vector<RunResult>> sweep(const Request& request, std::span<co
       help_sweep(runs, ranks, control);
       return std::nullopt;
     }
-    if (!request.program.quiet) control.progress = print_progress;
+    ProgressLine line;
+    if (!request.program.quiet) control.progress = std::ref(line);
     const RunStore store(request.out, fmt::format("vantage {} {}", VANTAGE_VERSION, executable_digest()));
     std::vector<RunResult> results = run_sweep(runs, store, ranks, control);
-    if (!request.program.quiet) fmt::print(stderr, "\n");
+    if (!request.program.quiet) line.end();
     return results;
   } catch (const std::exception& error) {
     if (ranks.size() > 1) fmt::print(stderr, "vantage, rank {}: {}\n", ranks.rank(), error.what());
