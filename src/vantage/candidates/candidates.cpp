@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/text.hpp"
 
 namespace vantage {
 namespace {
@@ -68,18 +69,6 @@ int whole_number(const std::string& part, const std::string& what, const std::st
   require(value == std::floor(value) && std::abs(value) < 1e9, "candidates '", text, "': ", what, " = '", part,
           "' must be a whole number");
   return static_cast<int>(value);
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 }  // namespace

@@ -4,21 +4,10 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/text.hpp"
 
 namespace vantage {
 namespace {
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
 
 double number_from_text(const std::string& option, const std::string& text) {
   double value = 0;
