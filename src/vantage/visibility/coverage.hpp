@@ -32,21 +32,45 @@ class Coverage {
   bool cover_row(int row, int first, int last, int first_sure, int last_sure, const Hits& hits) {
     bool any = false;
     for (int strip = first >> 3; strip <= last >> 3; ++strip) {
-      std::uint8_t& pixels = first_strip()[static_cast<std::ptrdiff_t>(strip) * stride_ + row];
-      const unsigned open = bits(first - 8 * strip, last - 8 * strip) & ~static_cast<unsigned>(pixels);
-      if (open == 0) continue;
-      unsigned covered = open & bits(first_sure - 8 * strip, last_sure - 8 * strip);
-      for (unsigned doubtful = open & ~covered; doubtful != 0; doubtful &= doubtful - 1) {
-        const int column = std::countr_zero(doubtful);
-        if (hits(8 * strip + column)) covered |= 1U << column;
-      }
+      const unsigned covered = hit_in(strip, row, first, last, first_sure, last_sure, hits);
+      std::uint8_t& pixels = at(strip, row);
       pixels = static_cast<std::uint8_t>(pixels | covered);
       any |= covered != 0;
     }
     return any;
   }
+  /// The same for a voxel that rays may pass once: the open pixels that it meets are covered here where `passed` has
+  /// them already, and are covered in `passed` otherwise. Returns whether any open pixel was met.
+  template <class Hits>
+  bool pass_row(Coverage& passed, int row, int first, int last, int first_sure, int last_sure, const Hits& hits) {
+    bool any = false;
+    for (int strip = first >> 3; strip <= last >> 3; ++strip) {
+      const unsigned met = hit_in(strip, row, first, last, first_sure, last_sure, hits);
+      std::uint8_t& ended = at(strip, row);
+      std::uint8_t& before = passed.at(strip, row);
+      ended = static_cast<std::uint8_t>(ended | (met & before));
+      before = static_cast<std::uint8_t>(before | met);
+      any |= met != 0;
+    }
+    return any;
+  }
 
  private:
+  [[nodiscard]] std::uint8_t& at(int strip, int row) {
+    return first_strip()[static_cast<std::ptrdiff_t>(strip) * stride_ + row];
+  }
+  /// The open pixels of a strip's row that a voxel meets, see cover_row().
+  template <class Hits>
+  [[nodiscard]] unsigned hit_in(int strip, int row, int first, int last, int first_sure, int last_sure,
+                                const Hits& hits) {
+    const unsigned open = bits(first - 8 * strip, last - 8 * strip) & ~static_cast<unsigned>(at(strip, row));
+    unsigned covered = open & bits(first_sure - 8 * strip, last_sure - 8 * strip);
+    for (unsigned doubtful = open & ~covered; doubtful != 0; doubtful &= doubtful - 1) {
+      const int column = std::countr_zero(doubtful);
+      if (hits(8 * strip + column)) covered |= 1U << column;
+    }
+    return covered;
+  }
   /// Bits first..last of a byte; either end may lie outside, and nothing is set where first > last.
   [[nodiscard]] static unsigned bits(int first, int last) {
     const int from = first < 0 ? 0 : first;

@@ -140,9 +140,9 @@ std::optional<Window> window(const PixelFrame& frame, const Index3& voxel) {
                 nearest < near + slack || farthest > far - slack};
 }
 
-}  // namespace
-
-bool splat(const PixelFrame& frame, const Index3& voxel, Coverage& coverage) {
+/// Calls `cover(row, first, last, first_sure, last_sure, hits)` for every row that the voxel's image meets.
+template <class CoverRow>
+bool splat_rows(const PixelFrame& frame, const Index3& voxel, const CoverRow& cover) {
   const std::optional<Window> part = window(frame, voxel);
   if (!part) return false;
   const Silhouette silhouette(frame, voxel);
@@ -152,10 +152,20 @@ bool splat(const PixelFrame& frame, const Index3& voxel, Coverage& coverage) {
     outer = {std::max(outer.first, part->columns.first), std::min(outer.last, part->columns.last)};
     if (outer.first > outer.last) continue;
     if (part->cut) inner = {};
-    visible |= coverage.cover_row(row, outer.first, outer.last, inner.first, inner.last,
-                                  [&](int column) { return frame.ray_passes(column, row, voxel); });
+    visible |= cover(row, outer.first, outer.last, inner.first, inner.last,
+                     [&](int column) { return frame.ray_passes(column, row, voxel); });
   }
   return visible;
+}
+
+}  // namespace
+
+bool splat(const PixelFrame& frame, const Index3& voxel, Coverage& coverage) {
+  return splat_rows(frame, voxel, [&](auto... row) { return coverage.cover_row(row...); });
+}
+
+bool splat_once(const PixelFrame& frame, const Index3& voxel, Coverage& ended, Coverage& passed) {
+  return splat_rows(frame, voxel, [&](auto... row) { return ended.pass_row(passed, row...); });
 }
 
 }  // namespace vantage

@@ -9,4 +9,7 @@ namespace vantage {
 /// in double precision, row by row, for the voxels that the vectorised one hands on.
 [[nodiscard]] bool splat(const PixelFrame& frame, const Index3& voxel, Coverage& coverage);
 
+/// The same for a voxel that rays may pass once (Coverage::pass_row()).
+[[nodiscard]] bool splat_once(const PixelFrame& frame, const Index3& voxel, Coverage& ended, Coverage& passed);
+
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #include "vantage/visibility/passable_voxels.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace vantage {
@@ -62,9 +63,91 @@ class PassableRow {
   const std::uint64_t *before_y_ = nullptr, *before_z_ = nullptr;
 };
 
+/// ORs to the words of some rows those of their neighbours along x on the side of the camera. What lies outside of the
+/// enclosure is empty.
+void or_along_x(const std::uint64_t* rows, std::size_t count, const BitLayout& layout, int side, std::uint64_t* to) {
+  const auto words = static_cast<std::size_t>(layout.words_per_row);
+  const std::uint64_t beyond = ~layout.row_mask(layout.words_per_row - 1);
+  constexpr std::uint64_t last_bit = std::uint64_t{1} << 63U;
+  if (words == 1 && side > 0) {
+    for (std::size_t k = 0; k < count; ++k) to[k] |= rows[k] << 1U | 1U;
+  } else if (words == 1) {
+    for (std::size_t k = 0; k < count; ++k) to[k] |= (rows[k] | beyond) >> 1U | last_bit;
+  } else {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t w = k % words;
+      if (side > 0) {
+        to[k] |= rows[k] << 1U | (w == 0 ? 1U : rows[k - 1] >> 63U);
+      } else if (w + 1 == words) {
+        to[k] |= (rows[k] | beyond) >> 1U | last_bit;
+      } else {
+        to[k] |= rows[k] >> 1U | rows[k + 1] << 63U;
+      }
+    }
+  }
+}
+
+/// Sets the bits of the region's voxels that have a neighbour in `passable` on a side that faces the camera, and some
+/// of voxels that are no candidates. In long loops over words, which compilers vectorise.
+void mark_facing(const BitPlane& passable, const BitLayout& layout, const Region& region, BitPlane& facing) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  const auto words = static_cast<std::size_t>(layout.words_per_row);
+  const int rows = region.box.max.y() - region.box.min.y() + 1;
+  const auto count = static_cast<std::size_t>(rows) * words;
+  for (int z = region.box.min.z(); z <= region.box.max.z(); ++z) {
+    const std::size_t first = layout.row(region.box.min.y(), z);
+    const std::uint64_t* const here = passable.words.data() + first;
+    std::uint64_t* const to = facing.words.data() + first;
+    const int z_before = z - region.side[2];
+    if (z_before < 0 || z_before >= layout.size.z()) {
+      std::fill_n(to, count, all);
+      continue;
+    }
+    const std::uint64_t* const before_z = passable.words.data() + layout.row(region.box.min.y(), z_before);
+    // The row at the enclosure's border has emptiness before it.
+    const bool begins_at_border = region.side[1] > 0 && region.box.min.y() == 0;
+    const bool ends_at_border = region.side[1] < 0 && region.box.max.y() == layout.size.y() - 1;
+    const std::size_t from = begins_at_border ? words : 0;
+    const std::size_t end = ends_at_border ? count - words : count;
+    std::fill_n(to, from, all);
+    if (region.side[1] > 0) {
+      for (std::size_t k = from; k < end; ++k) to[k] = before_z[k] | here[k - words];
+    } else {
+      for (std::size_t k = from; k < end; ++k) to[k] = before_z[k] | here[k + words];
+    }
+    std::fill_n(to + end, count - end, all);
+    or_along_x(here, count, layout, region.side[0], to);
+  }
+}
+
 }  // namespace
 
-PassableVoxels::PassableVoxels(const VoxelMap& map) {
+void PassableVoxels::collect(const BitPlane& passable, const Region& region, const BatchRegion& batch, BitPlane& facing,
+                             std::vector<std::uint32_t>& voxels) const {
+  const BitLayout& layout = map_->layout();
+  facing.words.resize(layout.words());
+  mark_facing(passable, layout, region, facing);
+  const std::vector<std::uint32_t>& octant = octants_[number(region.side)];
+  constexpr std::size_t room = 16;
+  const std::size_t before = voxels.size();
+  voxels.resize(before + octant.size() + room);
+  std::uint32_t* const first = voxels.data() + before;
+  const std::size_t inside = select_(batch, octant.data(), octant.size(), first);
+  const auto rows_per_layer = static_cast<std::uint32_t>(layout.size.y());
+  const auto words_per_row = static_cast<std::uint32_t>(layout.words_per_row);
+  const std::uint64_t* const words = facing.words.data();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < inside; ++i) {  // without branches, which nobody could foresee
+    const std::uint32_t voxel = first[i];
+    const std::uint32_t row = (voxel >> 20U & 1023U) * rows_per_layer + (voxel >> 10U & 1023U);
+    const std::uint32_t x = voxel & 1023U;
+    first[kept] = voxel;
+    kept += words[row * words_per_row + (x >> 6U)] >> (x & 63U) & 1U;
+  }
+  voxels.resize(before + kept);
+}
+
+PassableVoxels::PassableVoxels(const VoxelMap& map, SelectInside select) : map_(&map), select_(select) {
   BitPlane passable = map.empty();
   for (std::size_t i = 0; i < passable.words.size(); ++i) passable.words[i] |= map.occupied().words[i];
   const Index3& size = map.layout().size;

@@ -26,8 +26,8 @@ SplatSights splat_sights_for(InstructionSet set) {
 
 /// Memory that one thread uses for one view after the other.
 struct Scratch {
-  Coverage ended, passed, single, blank;
-  BitPlane grazing;
+  Coverage ended, passed;
+  BitPlane grazing, passable, facing;          // grazing voxels, these with the empty ones, PassableVoxels::collect()
   std::vector<std::uint32_t> inside, visible;  // packed voxels
 };
 
@@ -53,24 +53,11 @@ struct SightPass {
     return {memory.passed.first_strip(), memory.grazing.words.data(), static_cast<std::size_t>(layout.size.y()),
             static_cast<std::size_t>(layout.words_per_row)};
   }
-  /// In double precision. A grazing voxel's pixels are found on a sheet of its own.
+  /// In double precision.
   [[nodiscard]] bool splat_one(PackedVoxel voxel) const {
     const Index3 index = voxel.index();
     const bool is_grazing = (memory.grazing.words[layout.word(index)] & BitLayout::bit(index)) != 0;
-    if (!is_grazing) return splat(frame, index, memory.ended);
-    memory.single.reset(frame.resolution);
-    if (!splat(frame, index, memory.single)) return false;
-    unsigned any = 0;
-    const std::ptrdiff_t stride = memory.ended.stride();
-    for (std::ptrdiff_t strip = 0; 8 * strip < frame.resolution.columns; ++strip) {
-      for (std::ptrdiff_t at = strip * stride; at < strip * stride + frame.resolution.rows; ++at) {
-        const unsigned pixels = memory.single.first_strip()[at] & ~unsigned{memory.blank.first_strip()[at]};
-        any |= pixels & ~unsigned{memory.ended.first_strip()[at]};
-        memory.ended.first_strip()[at] |= static_cast<std::uint8_t>(pixels & memory.passed.first_strip()[at]);
-        memory.passed.first_strip()[at] |= static_cast<std::uint8_t>(pixels);
-      }
-    }
-    return any != 0;
+    return is_grazing ? splat_once(frame, index, memory.ended, memory.passed) : splat(frame, index, memory.ended);
   }
 };
 
@@ -91,17 +78,15 @@ struct SightEvaluator::Prepared {
   Prepared(const VoxelMap& voxel_map, const GrazingPass& grazing, InstructionSet instructions)
       : map(voxel_map),
         pass(grazing),
-        select(splat_kernels_for(instructions).select),
         splat(splat_sights_for(instructions)),
         normals(voxel_map),
         fits(voxel_map.layout().size.maxCoeff() <= PackedVoxel::max_side) {
     pass.validate();
-    if (fits) voxels.emplace(voxel_map);
+    if (fits) voxels.emplace(voxel_map, splat_kernels_for(instructions).select);
   }
 
   const VoxelMap& map;
   GrazingPass pass;
-  SelectInside select;
   SplatSights splat;
   SurfaceNormals normals;
   bool fits;
@@ -109,9 +94,10 @@ struct SightEvaluator::Prepared {
   mutable tbb::enumerable_thread_specific<Scratch> scratch;
 
   /// Occupied voxels that this axis grazes.
-  void mark_grazing(BitPlane& grazing, const Vec3& axis) const {
-    const BitLayout& layout = map.layout();
-    grazing.words.assign(layout.words(), 0);
+  void mark_grazing(Scratch& memory, const Vec3& axis) const {
+    BitPlane& grazing = memory.grazing;
+    grazing.words.assign(map.layout().words(), 0);
+    memory.passable.words = map.empty().words;
     std::size_t rank = 0;
     const double* normal = normals.table().normals;
     for (std::size_t word = 0; word < grazing.words.size(); ++word) {
@@ -119,6 +105,7 @@ struct SightEvaluator::Prepared {
         const Vec3 n(normal[3 * rank], normal[3 * rank + 1], normal[3 * rank + 2]);
         if (std::abs(facing_cosine(axis, n)) < pass.cosine) grazing.words[word] |= bits & ~(bits - 1);
       }
+      memory.passable.words[word] |= grazing.words[word];
     }
   }
 
@@ -130,20 +117,17 @@ struct SightEvaluator::Prepared {
     Scratch& memory = scratch.local();
     memory.ended.reset(resolution);
     memory.passed.reset(resolution);
-    memory.blank.reset(resolution);
     memory.visible.clear();
-    mark_grazing(memory.grazing, view.axis());
+    mark_grazing(memory, view.axis());
     const SightPass way(frame, memory, map.layout());
     for (const Region& region : regions_front_to_back(map.layout().size, frame.local_cell())) {
       const BatchRegion batch = batch_region(frame, region);
-      const std::vector<std::uint32_t>& octant = voxels->octant(region.side);
-      constexpr std::size_t room = 16;
-      memory.inside.resize(octant.size() + room);
-      const std::size_t inside = select(batch, octant.data(), octant.size(), memory.inside.data());
+      memory.inside.clear();
+      voxels->collect(memory.passable, region, batch, memory.facing, memory.inside);
       const std::size_t before = memory.visible.size();
-      memory.visible.resize(before + inside);
-      const std::size_t seen =
-          splat(way.batch, way.layer(), batch, memory.inside.data(), inside, memory.visible.data() + before);
+      memory.visible.resize(before + memory.inside.size());
+      const std::size_t seen = splat(way.batch, way.layer(), batch, memory.inside.data(), memory.inside.size(),
+                                     memory.visible.data() + before);
       memory.visible.resize(before + seen);
     }
     return &memory.visible;
