@@ -33,6 +33,7 @@ class GrowingModel {
     // As for a folder of scans: the mean distance of the sensor, where the options give none.
     if (!options_.scene.radius) scene.radius = distance_ / static_cast<double>(scans_.model().scans.size());
     Planner planner = options_.planner(scene.candidates(options_.scene.views), camera_);
+    tell_of_scans(planner, scans_.model().scans);
     std::optional<Plan> plan = planner.next_best_view(scans_.model().map, scans_.current());
     return {std::move(plan), planner.why_finished()};
   }

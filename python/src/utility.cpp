@@ -116,7 +116,7 @@ void bind_choice(py::module_& module) {
            }),
            py::arg("function"), py::kw_only(), py::arg("needs_all_views") = false,
            py::arg("skips_scanned_views") = false,
-           "needs_all_views: it compares views, so searches that evaluate a part of them refuse it. "
+           "needs_all_views: it compares views, so it is asked once per plan, and multi-resolution search refuses it. "
            "skips_scanned_views: never choose a view twice.");
 }
 

@@ -299,7 +299,7 @@ class Choice:
 class SetUtility:
     """A utility that scores all views at once: function(choice) takes a Choice and returns one finite number for each of choice.views, in their order; higher is better, 0 or less is not worth a scan."""
     def __init__(self, function: function, *, needs_all_views: bool = False, skips_scanned_views: bool = False) -> None:
-        """needs_all_views: it compares views, so searches that evaluate a part of them refuse it. skips_scanned_views: never choose a view twice."""
+        """needs_all_views: it compares views, so it is asked once per plan, and multi-resolution search refuses it. skips_scanned_views: never choose a view twice."""
 
 
 class Candidates:

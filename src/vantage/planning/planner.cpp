@@ -71,11 +71,9 @@ Planner::Planner(Candidates candidates, const RangeCamera& camera, const Planner
   options_.validate();
   require(!candidates_.views.empty(), "candidates: there are none");
   require(!utility_.needs_all_views || options_.search == SearchKind::exhaustive, "utility '", options_.utility,
-          "' compares all views: use it with the exhaustive search, not with multi-resolution");
-  require(!utility_.needs_all_views || options_.deadline == 0, "utility '", options_.utility,
-          "' compares all views: it cannot be used with a deadline");
-  require(!utility_.needs_all_views || !options_.believed_error, "utility '", options_.utility,
-          "' compares all views: the robot's error cannot be planned for with it; leave convolve off");
+          "' compares all views: use it with the exhaustive search, not with multi-resolution, whose stages drop the "
+          "views that "
+          "it would compare with; a deadline bounds its time");
   require(options_.travel != TravelKind::orthodromic || candidates_.kind == Candidates::Kind::sphere,
           "travel = orthodromic: needs candidates on a sphere; use straight or path");
   // The navigation factor is made for a sphere (spec, section 4), unless the user says what moves are counted by.
@@ -156,9 +154,9 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   }
 
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{map,      visibility,   camera_,          candidates_, map.grid().length,
-                               travel(), current,      options_.factors, utility_,    moves.normalised_costs(feasible),
-                               scanned_, options_.seed};
+  const ViewEvaluation problem{map,      visibility,    camera_,          candidates_, map.grid().length,
+                               travel(), current,       options_.factors, utility_,    moves.normalised_costs(feasible),
+                               scanned_, options_.seed, feasible};
   plan.feasible = feasible.size();
   plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
@@ -198,9 +196,19 @@ std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& curre
   plan.move = {};
   Moves moves(options_, candidates_, travel(), map, state_behind(current));
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{map,      visibility,   camera_,          candidates_, map.grid().length,
-                               travel(), current,      options_.factors, utility_,    moves.normalised_costs(ranked),
-                               scanned_, options_.seed};
+  const ViewEvaluation problem{map,
+                               visibility,
+                               camera_,
+                               candidates_,
+                               map.grid().length,
+                               travel(),
+                               current,
+                               options_.factors,
+                               utility_,
+                               moves.normalised_costs(ranked),
+                               scanned_,
+                               options_.seed,
+                               ranked};
   return settled(std::move(plan), moves, problem);
 }
 

@@ -122,6 +122,49 @@ TEST(Utility, ThatComparesAllViewsRefusesTheMultiResolutionSearch) {
   EXPECT_THROW(Planner(view_sphere(20, 2.5, Vec3::Zero()), camera, options, utility), InputError);
 }
 
+TEST(Utility, GainMakesDoWithADeadline) {
+  const VoxelMap map = unseen_block();
+  PlannerOptions options;
+  options.utility = "gain";
+  options.deadline = 1e-6;
+  Planner hurried(view_sphere(80, 2.5, Vec3::Zero()), camera, options);
+  const auto some = hurried.next_best_view(map, hurried.candidates().views[0]);
+  ASSERT_TRUE(some);
+  EXPECT_EQ(some->feasible, 80U);
+  EXPECT_LT(some->ranking.size(), 80U);
+  EXPECT_EQ(some->explanation.find(concat("best of the ", some->ranking.size(), " of 80 views seen within")), 0U)
+      << some->explanation;
+
+  options.deadline = 60'000;
+  Planner patient(view_sphere(80, 2.5, Vec3::Zero()), camera, options);
+  const auto all = patient.next_best_view(map, patient.candidates().views[0]);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->ranking.size(), 80U);
+  options.deadline = 0;
+  Planner whole(view_sphere(80, 2.5, Vec3::Zero()), camera, options);
+  EXPECT_EQ(all->best.candidate, whole.next_best_view(map, whole.candidates().views[0])->best.candidate);
+}
+
+TEST(Utility, GainIsExpectedUnderTheRobotsError) {
+  const VoxelMap map = unseen_block();
+  PlannerOptions options;
+  options.utility = "gain";
+  const auto best_with = [&](ErrorMethod method) {
+    options.error_method = method;
+    Planner planner(view_sphere(80, 2.5, Vec3::Zero()), camera, options);
+    const auto plan = planner.next_best_view(map, planner.candidates().views[0]);
+    EXPECT_TRUE(plan && plan->best.expected);
+    return plan->best;
+  };
+  options.believed_error = std::make_shared<ConstantError>(PoseError::from_deviations({0.2, 0.2, 0.2}, Vec3::Zero()));
+  for (const ErrorMethod method : {ErrorMethod::convolution, ErrorMethod::samples}) {
+    const Evaluation best = best_with(method);
+    EXPECT_GT(best.expected->utility, 0);
+    // A pose near the best view is worth about what that is: the scale is that of all candidates.
+    EXPECT_NEAR(best.expected->utility, best.utility, 0.3 * best.utility);
+  }
+}
+
 TEST(Utility, MustGiveAFiniteNumberForEveryView) {
   const VoxelMap map = unseen_block();
   EXPECT_THROW(plan_with({.score = SetUtility([](const Choice&) { return std::vector<double>{1, 2}; })}, map), Error);

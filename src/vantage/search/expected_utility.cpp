@@ -48,6 +48,13 @@ std::vector<Expectation> expect(const ViewEvaluation& problem, std::span<const s
       rays.push_back(resolutions[i]);
     }
   }
+  if (problem.utility.needs_all_views) {
+    // It says what poses are worth among the feasible candidates, not among each other.
+    for (const int candidate : problem.feasible) {
+      reachable.views.push_back(problem.candidates.views[static_cast<std::size_t>(candidate)]);
+      rays.push_back(problem.ideal(candidate));
+    }
+  }
   std::vector<int> all(reachable.views.size());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<Evaluation> evaluations = asked_of(problem, reachable).evaluate(all, rays);

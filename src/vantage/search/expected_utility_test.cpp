@@ -7,6 +7,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/random.hpp"
 #include "vantage/search/pose_samples.hpp"
+#include "vantage/utility/gain.hpp"
 
 namespace vantage {
 namespace {
@@ -55,6 +56,24 @@ class ExpectedUtility : public testing::Test {
   UtilityOptions options{.navigation = false};
   Utility utility{.score = CountUtility([](const Visibility&, const Factors& f) { return combined_utility(f); })};
 };
+
+TEST_F(ExpectedUtility, OfAUtilityThatComparesViewsIsWhatThePoseIsWorthAmongTheCandidates) {
+  const Candidates sphere = view_sphere(20, 2, Vec3::Zero());
+  ViewEvaluation asked = problem(sphere);
+  asked.utility = gain_utility();
+  const std::vector<Evaluation> evaluations = evaluate_all(asked);
+  std::vector<int> feasible;
+  std::vector<std::vector<PossiblePose>> sets;
+  for (int v = 0; v < 20; ++v) feasible.push_back(v);
+  for (const int v : {3, 0, 11}) sets.push_back({{sphere.views[static_cast<std::size_t>(v)], 1, true}});
+  asked.feasible = feasible;
+  const std::vector<Expectation> expected =
+      expect(asked, sets, std::vector<Resolution>(sets.size(), camera.resolution), 0.1);
+  EXPECT_EQ(expected[0].utility, evaluations[3].utility);
+  EXPECT_EQ(expected[1].utility, evaluations[0].utility);
+  EXPECT_EQ(expected[2].utility, evaluations[11].utility);
+  EXPECT_GT(expected[0].utility + expected[1].utility + expected[2].utility, 0);
+}
 
 TEST_F(ExpectedUtility, OfTheCellsAroundACandidateIsConvolutionAfterEvaluation) {
   // The special case: a position-only error, the cells of the view cube as poses, eq. 19 as weights, the sensor turned

@@ -61,14 +61,15 @@ Evaluation ViewEvaluation::with_cost(Evaluation result, double cost) const {
   return result;
 }
 
-void ViewEvaluation::score(std::vector<Evaluation>& evaluations) const {
+void ViewEvaluation::score(std::vector<Evaluation>& evaluations,
+                           std::optional<std::chrono::steady_clock::time_point> deadline) const {
   std::vector<ViewToJudge> views;
   views.reserve(evaluations.size());
   for (const Evaluation& each : evaluations) {
     views.push_back({each.candidate, each.view, each.resolution, ideal(each.candidate), normalised_cost(each.candidate),
                      each.seen, each.factors});
   }
-  const std::vector<double> scores = judge(utility, {map, visibility, camera, current, scanned, seed, views});
+  const std::vector<double> scores = judge(utility, {map, visibility, camera, current, scanned, seed, views, deadline});
   for (std::size_t i = 0; i < scores.size(); ++i) evaluations[i].score = evaluations[i].utility = scores[i];
 }
 
@@ -84,9 +85,9 @@ std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_
   return evaluations;
 }
 
-std::vector<Evaluation> ViewEvaluation::evaluate_until(std::chrono::steady_clock::time_point deadline,
-                                                       std::span<const int> candidate_indices,
-                                                       std::span<const Resolution> resolutions) const {
+std::vector<Evaluation> ViewEvaluation::look_until(std::chrono::steady_clock::time_point deadline,
+                                                   std::span<const int> candidate_indices,
+                                                   std::span<const Resolution> resolutions) const {
   std::vector<std::size_t> order(candidate_indices.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const std::vector<std::optional<Visibility>> seen =
@@ -96,7 +97,21 @@ std::vector<Evaluation> ViewEvaluation::evaluate_until(std::chrono::steady_clock
     if (!seen[i]) continue;
     evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], *seen[i]));
   }
+  return evaluations;
+}
+
+std::vector<Evaluation> ViewEvaluation::evaluate_until(std::chrono::steady_clock::time_point deadline,
+                                                       std::span<const int> candidate_indices,
+                                                       std::span<const Resolution> resolutions) const {
+  std::vector<Evaluation> evaluations = look_until(deadline, candidate_indices, resolutions);
   score(evaluations);
+  return evaluations;
+}
+
+std::vector<Evaluation> ViewEvaluation::judge_until(std::chrono::steady_clock::time_point deadline,
+                                                    std::vector<Evaluation> evaluations) const {
+  score(evaluations, deadline);
+  std::erase_if(evaluations, [](const Evaluation& each) { return each.score == not_judged; });
   return evaluations;
 }
 

@@ -59,6 +59,8 @@ struct ViewEvaluation {
   std::vector<double> normalised_costs = {};
   std::span<const View> scanned = {};
   std::uint64_t seed = 1;
+  /// What a utility that compares views compares with where other views than candidates are asked about.
+  std::span<const int> feasible = {};
 
   /// The ideal resolution of a candidate (eq. 14), from its distance to the center.
   [[nodiscard]] Resolution ideal(int candidate) const;
@@ -70,13 +72,21 @@ struct ViewEvaluation {
   [[nodiscard]] std::vector<Evaluation> evaluate_until(std::chrono::steady_clock::time_point deadline,
                                                        std::span<const int> candidate_indices,
                                                        std::span<const Resolution> resolutions) const;
+  /// What views see, without scores, in the given order until the deadline: only those that were looked at.
+  [[nodiscard]] std::vector<Evaluation> look_until(std::chrono::steady_clock::time_point deadline,
+                                                   std::span<const int> candidate_indices,
+                                                   std::span<const Resolution> resolutions) const;
+  /// Scores them until the deadline, the first ones first: only those that the utility had time for.
+  [[nodiscard]] std::vector<Evaluation> judge_until(std::chrono::steady_clock::time_point deadline,
+                                                    std::vector<Evaluation> evaluations) const;
   /// The same view where the move there has another x of eq. 10.
   [[nodiscard]] Evaluation with_cost(Evaluation evaluation, double normalised_cost) const;
 
  private:
   [[nodiscard]] Evaluation evaluation(int candidate, Resolution resolution, const Visibility& seen) const;
   /// Fills in utility and score.
-  void score(std::vector<Evaluation>& evaluations) const;
+  void score(std::vector<Evaluation>& evaluations,
+             std::optional<std::chrono::steady_clock::time_point> deadline = {}) const;
   /// x of eq. 10 for the move to a candidate.
   [[nodiscard]] double normalised_cost(int candidate) const;
   [[nodiscard]] std::vector<View> views_of(std::span<const int> candidate_indices) const;

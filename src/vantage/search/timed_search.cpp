@@ -20,10 +20,54 @@ std::vector<Resolution> resolutions_of(const ViewEvaluation& problem, std::span<
   return resolutions;
 }
 
+bool any_of_use(const TimeBox& box, const std::vector<Evaluation>& evaluations) {
+  return std::any_of(evaluations.begin(), evaluations.end(),
+                     [&box](const Evaluation& each) { return each.seen.occplane > box.stop_occplane; });
+}
+
+/// As many as there is time for, those that see the most unknown first.
+std::vector<Evaluation> looked_at(Clock::time_point until, const ViewEvaluation& problem, std::span<const int> feasible,
+                                  const RayChoice& rays) {
+  ViewQueue queue(problem.candidates, feasible);
+  std::vector<Evaluation> looked;
+  for (bool in_time = true; in_time && !queue.empty();) {
+    const std::vector<int> round = queue.next(views_per_round(feasible.size()));
+    std::vector<Evaluation> found = problem.look_until(until, round, resolutions_of(problem, round, rays));
+    in_time = found.size() == round.size();
+    for (Evaluation& each : found) each.score = static_cast<double>(each.seen.occplane) + each.seen.unmarked;
+    queue.learn(found);
+    looked.insert(looked.end(), found.begin(), found.end());
+  }
+  std::sort(looked.begin(), looked.end(), [](const Evaluation& a, const Evaluation& b) {
+    return a.score != b.score ? a.score > b.score : a.candidate < b.candidate;
+  });
+  return looked;
+}
+
+std::vector<Evaluation> compare_until(const TimeBox& box, const ViewEvaluation& problem, std::span<const int> feasible,
+                                      const RayChoice& rays) {
+  const auto now = Clock::now();
+  const std::vector<Evaluation> looked = looked_at(now + (box.deadline - now) / 4, problem, feasible, rays);
+  std::vector<Evaluation> judged = problem.judge_until(box.deadline, looked);
+  std::vector<int> order;
+  for (const Evaluation& each : looked) order.push_back(each.candidate);
+  for (const int view : feasible) {
+    if (std::find(order.begin(), order.end(), view) == order.end()) order.push_back(view);
+  }
+  for (std::size_t count = views_per_round(order.size()); !any_of_use(box, judged) && judged.size() < order.size();
+       count *= 2) {
+    const std::span<const int> first(order.data(), std::min(count, order.size()));
+    judged = problem.evaluate(first, resolutions_of(problem, first, rays));
+  }
+  rank(judged);
+  return judged;
+}
+
 }  // namespace
 
 std::vector<Evaluation> search_until(const TimeBox& box, const ViewEvaluation& problem, std::span<const int> feasible,
                                      const RayChoice& rays) {
+  if (problem.utility.needs_all_views) return compare_until(box, problem, feasible, rays);
   ViewQueue queue(problem.candidates, feasible);
   std::vector<Evaluation> evaluations;
   bool any_of_use = false;

@@ -15,7 +15,8 @@ struct TimeBox {
 /// exhaustive_search that ends at a deadline: the feasible views that were evaluated by then, ranked; good ones come
 /// early (ViewQueue). Each is evaluated whole, so that a thread may be late by one view. Where none of them is of use
 /// it goes on until one is, or until all are evaluated: only then nothing is left to see. Which views there was time
-/// for depends on the clock.
+/// for depends on the clock. A utility that compares views is asked once, in the last three quarters of the time, about
+/// those that were looked at in the first.
 [[nodiscard]] std::vector<Evaluation> search_until(const TimeBox& box, const ViewEvaluation& problem,
                                                    std::span<const int> feasible, const RayChoice& rays);
 

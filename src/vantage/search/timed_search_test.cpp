@@ -98,6 +98,52 @@ TEST_F(TimedSearch, GoesOnPastTheDeadlineUntilAViewIsOfUse) {
       << "all of them, before anyone concludes that nothing is left";
 }
 
+/// Scores views by their share of the most occplane voxels; late for all but the first `in_time` of them.
+Utility comparing(int& asked, std::size_t in_time) {
+  const auto score = [&asked, in_time](const Choice& choice) {
+    ++asked;
+    int most = 1;
+    for (const ViewToJudge& view : choice.views) most = std::max(most, view.seen.occplane);
+    std::vector<double> scores;
+    for (const ViewToJudge& view : choice.views) {
+      const bool is_late = choice.deadline && scores.size() >= in_time;
+      scores.push_back(is_late ? not_judged : static_cast<double>(view.seen.occplane) / most);
+    }
+    return scores;
+  };
+  return {.score = SetUtility(score), .needs_all_views = true};
+}
+
+TEST_F(TimedSearch, AsksAUtilityThatComparesViewsAboutAllOfThemAtOnce) {
+  int asked = 0;
+  problem.utility = comparing(asked, 320);
+  const auto exhaustive = exhaustive_search(problem, all, {});
+  asked = 0;
+  const auto timed = search_until({Clock::now() + std::chrono::hours(1)}, problem, all, {});
+  EXPECT_EQ(asked, 1);
+  ASSERT_EQ(timed.size(), exhaustive.size());
+  for (std::size_t i = 0; i < timed.size(); ++i) {
+    EXPECT_EQ(timed[i].candidate, exhaustive[i].candidate);
+    EXPECT_EQ(timed[i].score, exhaustive[i].score);
+  }
+}
+
+TEST_F(TimedSearch, RanksOnlyWhatAUtilityThatComparesViewsHadTimeFor) {
+  int asked = 0;
+  problem.utility = comparing(asked, 5);
+  const auto some = search_until({Clock::now() + std::chrono::hours(1)}, problem, all, {});
+  EXPECT_EQ(some.size(), 5U);
+  // The five that see most: those are asked about first.
+  const auto exhaustive = exhaustive_search(problem, all, {});
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i].seen.occplane, exhaustive[i].seen.occplane);
+
+  problem.utility = comparing(asked, 0);
+  const auto late = search_until({Clock::now() - std::chrono::seconds(1)}, problem, all, {});
+  EXPECT_LT(late.size(), all.size() / 2);
+  EXPECT_TRUE(std::any_of(late.begin(), late.end(), [](const Evaluation& each) { return each.seen.occplane > 0; }))
+      << "goes on until a view is of use";
+}
+
 TEST(ViewQueue, GivesEveryCandidateOnce) {
   const Candidates candidates = view_cube(7, Vec3::Constant(4), 0.8, 1.9, Vec3::Zero());
   const std::vector<int> feasible = first_candidates(static_cast<int>(candidates.views.size()) - 3);

@@ -1,6 +1,7 @@
 #include "vantage/utility/gain.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -46,6 +47,7 @@ struct MetVoxels {
   std::array<std::size_t, classes + 1> first_word{};  // of each class, and the end
   std::vector<std::vector<std::uint64_t>> of_view;
   std::vector<std::int64_t> occupied;  // met, of each view
+  std::vector<char> looked;            // whether there was time for the view
 
   [[nodiscard]] double worth(const std::array<double, classes>& of_class, const Counts& counts) const {
     double sum = 0;
@@ -74,8 +76,14 @@ std::size_t class_of(const std::array<BitPlane, 3>& near, const BitLayout& layou
 
 MetVoxels meet(const Choice& choice, const GainOptions& options) {
   const SightEvaluator evaluator(choice.map, options.grazing);
+  MetVoxels met;
   std::vector<SightEvaluator::PackedSight> sights(choice.views.size());
-  parallel_for(sights.size(), [&](std::size_t i) {
+  met.looked.assign(sights.size(), 0);
+  std::atomic<std::size_t> next = 0;  // threads take views in their order, whichever loop index they run
+  parallel_for(sights.size(), [&](std::size_t) {
+    const std::size_t i = next++;
+    if (choice.deadline && std::chrono::steady_clock::now() >= *choice.deadline) return;
+    met.looked[i] = 1;
     const ViewToJudge& view = choice.views[i];
     const auto times = [&](int rays) {
       return std::max(1, static_cast<int>(std::lround(rays * options.rays_per_ideal)));
@@ -109,7 +117,6 @@ MetVoxels meet(const Choice& choice, const GainOptions& options) {
       slot.number = used[slot.of_class]++;
     }
   }
-  MetVoxels met;
   for (std::size_t c = 0; c < classes; ++c) {
     met.first_word[c + 1] = met.first_word[c] + (static_cast<std::size_t>(used[c]) + 63) / 64;
   }
@@ -161,6 +168,9 @@ std::vector<double> gain(const Choice& choice, const GainOptions& options) {
   }
   const double all = met.worth(options.worth, met.counts(any, nullptr));
   std::vector<double> scores(views, 0.0);
+  for (std::size_t i = 0; i < views; ++i) {
+    if (met.looked[i] == 0) scores[i] = not_judged;
+  }
   if (!(all > 0)) return scores;
 
   const std::vector<char> allowed = overlapping(met, counts, worth, options);

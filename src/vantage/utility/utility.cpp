@@ -31,7 +31,7 @@ std::vector<double> judge(const Utility& utility, const Choice& choice) {
     throw Error(concat("utility: ", scores.size(), " scores for ", choice.views.size(), " views"));
   }
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (std::isfinite(scores[i])) continue;
+    if (std::isfinite(scores[i]) || (choice.deadline && scores[i] == not_judged)) continue;
     throw Error(concat("utility: the score of candidate ", choice.views[i].candidate, " is ", scores[i],
                        ": must be a finite number"));
   }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,7 +36,13 @@ struct Choice {
   std::span<const View> scanned;       // views from which scans were merged, in their order; what the planner knows
   std::uint64_t seed = 1;              // for utilities that draw
   std::span<const ViewToJudge> views;  // feasible ones
+  /// Where there is one, a utility may give `not_judged` to views that it begins with after it; the best ones are
+  /// expected first in `views`.
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
 };
+
+/// The score of a view that there was no time for.
+inline constexpr double not_judged = -std::numeric_limits<double>::infinity();
 
 /// How good a view is, from what it would see: the fast kind, called once per view with numbers alone.
 using CountUtility = std::function<double(const Visibility&, const Factors&)>;
@@ -45,7 +53,7 @@ using SetUtility = std::function<std::vector<double>(const Choice&)>;
 /// A utility with what it needs.
 struct Utility {
   std::variant<CountUtility, SetUtility> score;
-  bool needs_all_views = false;      // compares views: searches that evaluate a part of them cannot use it
+  bool needs_all_views = false;      // compares views: is asked once per plan, about all views there is time for
   bool skips_scanned_views = false;  // never chooses a view twice
 
   [[nodiscard]] bool counts_only() const { return std::holds_alternative<CountUtility>(score); }
