@@ -72,6 +72,7 @@ void plan(Request& request) {
     if (folder) folder->add_scan(record, scan, scans.model(), nullptr);
   }
 
+  tell_of_scans(planner, scans.model().scans);
   const std::optional<Plan> next = planner.next_best_view(scans.model().map, scans.current());
   RunSummary summary;
   summary.object = description.object;

@@ -1,6 +1,28 @@
 #include "vantage/reconstruction/scan_model.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace vantage {
+namespace {
+
+int candidate_at(const Candidates& candidates, const View& view) {
+  constexpr double near = 0.01;  // of the distance to the center
+  const double least_cosine = std::cos(radians(1));
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < candidates.views.size(); ++i) {
+    const View& candidate = candidates.views[i];
+    const double distance = (candidate.position() - view.position()).norm();
+    if (distance >= least || distance > near * (candidate.position() - candidates.center).norm()) continue;
+    if (candidate.axis().dot(view.axis()) < least_cosine) continue;
+    least = distance;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
+}  // namespace
 
 std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& scene) {
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
@@ -19,9 +41,10 @@ std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const 
 
 ScanModel::ScanModel(const ScanScene& scene) : model_(scene.scene, scene.scene.voxel_length / 4) {}
 
-const ScanRecord& ScanModel::add(const std::string& name, const Scan& scan, const View& believed,
-                                 Registrar& registrar) {
+const ScanRecord& ScanModel::add(const std::string& name, const Scan& scan, const View& believed, Registrar& registrar,
+                                 int candidate) {
   ScanRecord record = update(model_, scan, believed, registrar);
+  record.candidate = candidate;
   record.commanded = believed;
   record.reason = name;
   const Vec3 position = sensor_position(scan, record.registered);
@@ -30,6 +53,14 @@ const ScanRecord& ScanModel::add(const std::string& name, const Scan& scan, cons
   current_.world_from_sensor.translation() = position;
   model_.scans.push_back(std::move(record));
   return model_.scans.back();
+}
+
+void tell_of_scans(Planner& planner, std::span<const ScanRecord> scans) {
+  for (const ScanRecord& scan : scans) {
+    if (!scan.merged) continue;
+    planner.scanned(scan.registered,
+                    scan.candidate >= 0 ? scan.candidate : candidate_at(planner.candidates(), scan.registered));
+  }
 }
 
 }  // namespace vantage

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
+#include "vantage/planning/planner.hpp"
 #include "vantage/reconstruction/from_scans.hpp"
 
 namespace vantage {
@@ -15,8 +17,10 @@ class ScanModel {
  public:
   explicit ScanModel(const ScanScene& scene);
 
-  /// Registers the scan, merges it where that succeeds, and notes it. `name` becomes the reason in its record.
-  const ScanRecord& add(const std::string& name, const Scan& scan, const View& believed, Registrar& registrar);
+  /// Registers the scan, merges it where that succeeds, and notes it. `name` becomes the reason in its record;
+  /// `candidate` is the view it was planned as, -1 where it was not planned.
+  const ScanRecord& add(const std::string& name, const Scan& scan, const View& believed, Registrar& registrar,
+                        int candidate = -1);
 
   [[nodiscard]] const ObjectModel& model() const { return model_; }
   /// Where the sensor is: at its last scan, in the middle of its sight lines' origins.
@@ -26,5 +30,10 @@ class ScanModel {
   ObjectModel model_;
   View current_;
 };
+
+/// Tells a planner from where scans were merged, as the loop of a run does after each of them: utilities with a memory
+/// ask for it. A scan that was not planned counts as taken from the candidate that it stands at, if there is one: to
+/// 1 % of the distance to the center and 1 degree.
+void tell_of_scans(Planner& planner, std::span<const ScanRecord> scans);
 
 }  // namespace vantage

@@ -32,7 +32,7 @@ SessionModel::SessionModel(const ScanPlanningOptions& options)
 
 Located SessionModel::add(int number, const SessionScan& scan, const std::optional<Located>& known) {
   KeepingRegistrar registrar(*registrar_, known);
-  note_candidate(scan, scans_.add(scan.name, scan.scan, scan.believed, registrar));
+  note_candidate(scan, scans_.add(scan.name, scan.scan, scan.believed, registrar, scan.candidate.value_or(-1)));
   numbers_.push_back(number);
   sum_of_distances_ += (sensor_position(scan.scan, scan.believed) - box_.center()).norm();
   if (!box_was_seen_) box_was_seen_ = points_in(box_, scan.scan, scan.believed) > 0;
@@ -65,6 +65,7 @@ Planner session_planner(const ScanPlanningOptions& options, const SessionState& 
                         const std::map<int, std::string>& skipped) {
   const Vec3 center = given_box(options.scene).value().center();
   Planner planner = options.planner(view_sphere(options.scene.views, state.radius, center), state.camera);
+  tell_of_scans(planner, state.scans);
   for (const auto& [candidate, reason] : state.set_aside) planner.set_aside(candidate, reason);
   for (const auto& [candidate, reason] : skipped) planner.discard(candidate, reason);
   return planner;

@@ -153,6 +153,21 @@ TEST(Session, KeepsWhichViewsWereSkipped) {
   EXPECT_THAT(input_error_of([&] { session.skip(20, "far"); }), HasSubstr("0 .. 19"));
 }
 
+TEST(Session, RemembersWhichViewsWereScannedForUtilitiesThatTakeNoneTwice) {
+  const TestFolder folder;
+  ScanPlanningOptions options = small_options();
+  options.planning.utility = "random";
+  Session::create(folder / "s", options);
+  SessionScan scan = plate_from({0, 0, 2});
+  scan.candidate = 4;
+  (void)Session(folder / "s").add(scan);
+  const SessionPlan next = Session(folder / "s").next();
+  ASSERT_TRUE(next.plan) << next.why_finished;
+  ASSERT_EQ(next.plan->infeasible.size(), 1U);
+  EXPECT_EQ(next.plan->infeasible.front().candidate, 4);
+  EXPECT_EQ(next.plan->infeasible.front().reason, "has been scanned from");
+}
+
 TEST(Session, AnswersManyThreadsAndKeepsEveryScan) {
   const TestFolder folder;
   Session::create(folder / "s", small_options());
