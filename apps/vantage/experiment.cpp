@@ -73,10 +73,15 @@ ExperimentReport write_report(const Request& request, const std::vector<Experime
   report.program = fmt::format("vantage {}", VANTAGE_VERSION);
   report.parts = report_parts(experiments, results);
   for (const ExperimentReport::Part& part : report.parts) write_part(folder, part);
-  write_file_atomically(folder / "report.html", experiment_page(report));
-  write_file_atomically(folder / "report.json", json(only(report, ExperimentContent::results)).dump(2) + "\n");
+  // What the clock said goes into files of its own: the others are the same whenever the sweep is repeated.
+  const ExperimentReport outcomes = only(report, ExperimentContent::results);
   const ExperimentReport times = only(report, ExperimentContent::times);
-  if (!times.parts.empty()) write_file_atomically(folder / "timings.json", json(times).dump(2) + "\n");
+  write_file_atomically(folder / "report.html", experiment_page(outcomes.parts.empty() ? times : outcomes));
+  write_file_atomically(folder / "report.json", json(outcomes).dump(2) + "\n");
+  if (!times.parts.empty()) {
+    write_file_atomically(folder / "timings.html", experiment_page(times));
+    write_file_atomically(folder / "timings.json", json(times).dump(2) + "\n");
+  }
   return report;
 }
 

@@ -30,7 +30,8 @@ def files(folder, *names):
 
 def results(folder):
     """What has to be the same bytes for every way to the same sweep: everything but the times."""
-    return {name: content for name, content in files(folder).items() if not name.startswith(("times", ".lock"))}
+    return {name: content for name, content in files(folder).items()
+            if not name.startswith(("times", "timings", ".lock")) and not name.endswith("-times.csv")}
 
 
 class Sweep(unittest.TestCase):
@@ -49,6 +50,30 @@ class Sweep(unittest.TestCase):
                                 env=ENVIRONMENT)
         self.assertEqual(result.returncode, 0, result.stderr)
         return results(self.folder / out)
+
+
+class Compare(Sweep):
+    def test_the_same_call_twice_gives_the_same_files(self):
+        compare = ["compare", "--utilities", "gain,oa,pc,random,uniform,known-greedy,known-optimum", "--shapes", "sphere,mug",
+                   "--starts", "3", "--protocol", "coarse", "--compare-max-views", "8", "--compare-depth-noise", "0.002,0.001",
+                   "--compare-positioning-error", "0.05,0.05,0.05", "--compare-registration", "icp"]
+        first = self.run_to_the_end("first", *compare)
+        self.assertEqual(sum(name.startswith("runs/") for name in first), 8 * 2 * 3)
+        for name in ("report.html", "report.json", "compare.csv", "compare-sphere.csv", "compare-mug.csv", "compare-curves.csv"):
+            self.assertIn(name, first)
+        self.assertEqual(first, self.run_to_the_end("second", *compare, "--threads", "1"))
+
+    def test_published_protocols_count_points(self):
+        files = self.run_to_the_end("pb-nbv", "compare", "--utilities", "gain", "--shapes", "sphere", "--starts", "2",
+                                    "--protocol", "pb-nbv")
+        for name, content in files.items():
+            if not name.startswith("runs/"):
+                continue
+            run = json.loads(content)["outcome"]
+            covered = run["lists"]["point_coverage"]
+            self.assertEqual(len(covered), run["numbers"]["views"])
+            self.assertEqual(covered, sorted(covered))
+            self.assertGreater(covered[-1], 0.98)
 
 
 @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed")

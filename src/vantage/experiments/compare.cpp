@@ -26,12 +26,20 @@ struct Comparison {
   std::vector<std::vector<RunGroup>> groups;
   int budget = 0;
   std::string conditions;
+  std::string coverage;  // the list of a run's outcome that its goals are of
 };
+
+/// At the size that the protocol gives all objects, if it does.
+std::shared_ptr<const SweepObject> sized(std::shared_ptr<const SweepObject> object, const Protocol& protocol) {
+  if (!protocol.size) return object;
+  return std::make_shared<SweepObject>(object->name(), object->mesh(), *protocol.size, object->source());
+}
 
 Objects objects_to_compare(const ExperimentOptions& options) {
   Objects objects;
+  const Protocol& protocol = protocol_by_name(options.compare.protocol);
   if (options.compare.shapes == "all") {
-    for (const PaperObject& object : paper_objects(options.folder())) objects.push_back(object.object);
+    for (const PaperObject& paper : paper_objects(options.folder())) objects.push_back(sized(paper.object, protocol));
     return objects;
   }
   for (std::size_t from = 0; from <= options.compare.shapes.size();) {
@@ -39,10 +47,10 @@ Objects objects_to_compare(const ExperimentOptions& options) {
     const std::string name = options.compare.shapes.substr(from, to - from);
     from = to + 1;
     if (const std::filesystem::path file(name); file.has_extension()) {
-      constexpr double size = 0.815;  // as the paper's objects
+      const double size = protocol.size.value_or(0.815);  // as the paper's objects
       objects.push_back(std::make_shared<SweepObject>(file.stem().string(), read_mesh(file), size, name));
     } else {
-      objects.push_back(paper_object(name, options.folder()).object);
+      objects.push_back(sized(paper_object(name, options.folder()).object, protocol));
     }
   }
   return objects;
@@ -52,8 +60,28 @@ void add_accuracy(const SimulatedRun& run, const SimulatedObject& object, RunOut
   outcome.numbers["accuracy"] = object.truth().accuracy(run.model.surface.cloud()).root_mean_square;
 }
 
+/// The list `point_coverage` of a run.
+ExtraMeasures::OnScan counting_points(const SweepObject& object, const ReconstructOptions& options,
+                                      const PointMetric& metric) {
+  const auto coverage = std::make_shared<PointCoverage>(*object.nothing_scanned(options, metric));
+  return [coverage](const ScanRecord& record, const Scan& scan, RunOutcome& outcome) {
+    if (record.merged) {
+      std::vector<Vec3> points = points_of(scan).points;
+      for (Vec3& point : points) point = record.registered.world_from_sensor * point;
+      coverage->add(points);
+    }
+    outcome.lists["point_coverage"].push_back(coverage->share());
+  };
+}
+
 ExtraMeasures measures_for(const std::string& method, const CompareOptions& compare) {
-  ExtraMeasures extra{"accuracy", add_accuracy, nullptr};
+  ExtraMeasures extra{"accuracy", add_accuracy};
+  if (const auto& metric = protocol_by_name(compare.protocol).metric) {
+    extra.name += concat(", ", metric->samples, " points, ", metric->tolerance, " m, reachable: ", metric->reachable);
+    extra.per_scan = [metric](const SweepObject& object, const ReconstructOptions& run) {
+      return counting_points(object, run, *metric);
+    };
+  }
   if (method == "known-greedy") {
     extra.utility = [](const SimulatedObject& o, const ReconstructOptions& r) { return known_greedy_utility(o, r); };
   } else if (method == "known-optimum") {
@@ -71,7 +99,8 @@ ExtraMeasures measures_for(const std::string& method, const CompareOptions& comp
 }
 
 std::string conditions_text(const CompareOptions& c) {
-  std::string text = fmt::format("Protocol {}", c.protocol);
+  const Protocol& protocol = protocol_by_name(c.protocol);
+  std::string text = fmt::format("Protocol {}: {}", protocol.name, protocol.text);
   if (!c.depth_noise.isZero(0)) {
     text += fmt::format(", depth noise {:.1f} mm + {:.1f} mm/m2", 1000 * c.depth_noise.x(), 1000 * c.depth_noise.y());
   }
@@ -86,8 +115,9 @@ Comparison add_runs(Experiment& experiment, const ExperimentOptions& options) {
   Comparison comparison{objects_to_compare(options),
                         options.compare.methods(),
                         {},
-                        options.compare.max_views,
-                        conditions_text(options.compare)};
+                        options.compare.budget(),
+                        conditions_text(options.compare),
+                        protocol_by_name(options.compare.protocol).metric ? "point_coverage" : "coverage"};
   for (const auto& object : comparison.objects) {
     std::vector<RunGroup> of_object;
     for (const std::string& method : comparison.methods) {
@@ -203,7 +233,7 @@ LineChart coverage_chart(const Comparison& comparison, const std::string& object
     series.name = comparison.methods[m];
     for (std::size_t scan = 1; scan <= scans; ++scan) {
       const Estimate covered =
-          estimate(each(runs[m], [scan](const RunOutcome& o) { return 100 * after_scan(o, "coverage", scan); }));
+          estimate(each(runs[m], [&](const RunOutcome& o) { return 100 * after_scan(o, comparison.coverage, scan); }));
       series.x.push_back(static_cast<double>(scan));
       series.y.push_back(covered.mean);
       series.low.push_back(covered.low);
@@ -228,7 +258,8 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
     Measures measures;
     for (const auto& method : runs) {
       std::vector<CompareMeasures> of_method;
-      for (const RunOutcome& run : method) of_method.push_back(measure_run(run, comparison.budget));
+      for (const RunOutcome& run : method)
+        of_method.push_back(measure_run(run, comparison.budget, comparison.coverage));
       measures.push_back(std::move(of_method));
     }
     figure.plots.emplace_back(coverage_chart(comparison, comparison.objects[k]->name(), runs, measures));

@@ -5,8 +5,8 @@
 
 namespace vantage {
 
-CompareMeasures measure_run(const RunOutcome& outcome, int budget) {
-  const std::vector<double>& coverage = outcome.list("coverage");
+CompareMeasures measure_run(const RunOutcome& outcome, int budget, const std::string& covered) {
+  const std::vector<double>& coverage = outcome.list(covered);
   CompareMeasures result;
   std::size_t last = coverage.size();  // scans up to the last goal
   for (std::size_t g = 0; g < CompareMeasures::goals.size(); ++g) {
@@ -20,7 +20,7 @@ CompareMeasures measure_run(const RunOutcome& outcome, int budget) {
   }
   result.distance = outcome.list("distance")[last - 1];
   for (std::size_t scan = 1; scan <= CompareMeasures::curve_length; ++scan) {
-    result.area_under_curve += 100 * after_scan(outcome, "coverage", scan) / CompareMeasures::curve_length;
+    result.area_under_curve += 100 * after_scan(outcome, covered, scan) / CompareMeasures::curve_length;
   }
   const std::vector<double>& overlap = outcome.list("overlap");
   double sum = 0;

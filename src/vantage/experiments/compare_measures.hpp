@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "vantage/experiments/run_outcome.hpp"
@@ -22,8 +23,8 @@ struct CompareMeasures {
   static constexpr std::size_t curve_length = 20;
 };
 
-/// `budget`: scans that a run may take.
-[[nodiscard]] CompareMeasures measure_run(const RunOutcome& outcome, int budget);
+/// `budget`: scans that a run may take. `coverage`: the outcome's list that goals and curve are of.
+[[nodiscard]] CompareMeasures measure_run(const RunOutcome& outcome, int budget, const std::string& coverage);
 
 /// Sums of views, distances, misses; means of the others; the least of the least overlaps.
 [[nodiscard]] CompareMeasures over_objects(const std::vector<CompareMeasures>& objects);

@@ -17,7 +17,7 @@ RunOutcome outcome(std::vector<double> coverage) {
 }
 
 TEST(CompareMeasures, CountScansUpToTheGoals) {
-  const CompareMeasures run = measure_run(outcome({0.5, 0.96, 0.991, 0.995}), 25);
+  const CompareMeasures run = measure_run(outcome({0.5, 0.96, 0.991, 0.995}), 25, "coverage");
   EXPECT_EQ(run.views, (std::array<double, 4>{2, 2, 3, 3}));
   EXPECT_EQ(run.distance, 5);
   EXPECT_EQ(run.missed, 0);
@@ -28,7 +28,7 @@ TEST(CompareMeasures, CountScansUpToTheGoals) {
 }
 
 TEST(CompareMeasures, CountTheBudgetWhereAGoalIsMissed) {
-  const CompareMeasures run = measure_run(outcome({0.5, 0.8, 0.91, 0.92}), 25);
+  const CompareMeasures run = measure_run(outcome({0.5, 0.8, 0.91, 0.92}), 25, "coverage");
   EXPECT_EQ(run.views, (std::array<double, 4>{3, 25, 25, 25}));
   EXPECT_EQ(run.distance, 9);
   EXPECT_EQ(run.missed, 1);
@@ -38,7 +38,7 @@ TEST(CompareMeasures, CountTheBudgetWhereAGoalIsMissed) {
 TEST(CompareMeasures, PassOverScansThatWereNotMerged) {
   RunOutcome run = outcome({0.5, 0.5, 0.7, 0.8});
   run.lists["overlap"] = {std::nan(""), std::nan(""), 0.3, 0.2};
-  EXPECT_DOUBLE_EQ(measure_run(run, 25).mean_overlap, 0.25);
+  EXPECT_DOUBLE_EQ(measure_run(run, 25, "coverage").mean_overlap, 0.25);
 }
 
 TEST(CompareMeasures, AreSummedOverObjects) {

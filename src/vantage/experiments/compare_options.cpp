@@ -50,11 +50,10 @@ void CompareOptions::validate() const {
       throw InputError(concat("utilities: ", error.what(), ", known-greedy, known-optimum"));
     }
   }
-  require(protocol == "paper" || protocol == "dense" || protocol == "coarse", "protocol = '", protocol,
-          "': must be one of: paper, dense, coarse");
+  (void)protocol_by_name(protocol);
   require(external_timeout > 0 && std::isfinite(external_timeout), "external-timeout = ", external_timeout,
           " s: must be positive");
-  require(max_views >= 2 && max_views <= 200, "compare-max-views = ", max_views, ": must be in 2..200");
+  require(budget() >= 2 && budget() <= 200, "compare-max-views = ", budget(), ": must be in 2..200");
   run_options().validate();
 }
 
@@ -63,10 +62,11 @@ ReconstructOptions CompareOptions::run_options() const {
   options.depth_noise = depth_noise;
   options.positioning_error = positioning_error;
   options.registration = registration;
-  options.max_views = max_views;
-  if (protocol == "dense") options.candidates = "sphere:320:2";
-  if (protocol == "coarse") options.candidates = "sphere:20:2";
+  options.max_views = budget();
+  protocol_by_name(protocol).set(options);
   return options;
 }
+
+int CompareOptions::budget() const { return max_views.value_or(protocol_by_name(protocol).max_views); }
 
 }  // namespace vantage

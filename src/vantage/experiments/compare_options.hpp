@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/experiments/protocol.hpp"
 #include "vantage/reconstruction/options.hpp"
 
 namespace vantage {
@@ -19,7 +20,7 @@ struct CompareOptions {
   Vec3 positioning_error = Vec3::Zero();
   std::string registration = "truth";
   std::string protocol = "paper";
-  int max_views = 25;
+  std::optional<int> max_views;
 
   /// Throws InputError naming the option.
   void validate() const;
@@ -27,6 +28,8 @@ struct CompareOptions {
   [[nodiscard]] std::vector<std::string> methods() const;
   /// The runs' options but for object, start and utility.
   [[nodiscard]] ReconstructOptions run_options() const;
+  /// Scans that a run may take.
+  [[nodiscard]] int budget() const;
 };
 
 template <class Field>
@@ -42,9 +45,8 @@ void describe(CompareOptions& o, Field&& field) {
         "of compare: A,B, standard deviation of a depth z is A + B z^2");
   field("compare-positioning-error", o.positioning_error, "m", "of compare: standard deviation per axis");
   field("compare-registration", o.registration, "", "of compare: truth, none or icp");
-  field("protocol", o.protocol, "",
-        "of compare: paper (80 views, 45x45 degrees, 320x320), dense (320 views) or coarse (20 views)");
-  field("compare-max-views", o.max_views, "", "of compare: scans after which a run ends");
+  field("protocol", o.protocol, "", "of compare: " + names_of_protocols() + " (docs/methods.md)");
+  field("compare-max-views", o.max_views, "", "of compare: scans after which a run ends; the protocol's if not given");
 }
 
 }  // namespace vantage

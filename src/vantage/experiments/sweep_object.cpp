@@ -63,4 +63,39 @@ std::shared_ptr<const SimulatedObject> SweepObject::simulated(const ReconstructO
   return object;
 }
 
+std::shared_ptr<const PointCoverage> SweepObject::nothing_scanned(const ReconstructOptions& options,
+                                                                  const PointMetric& metric) const {
+  const std::shared_ptr<const SimulatedObject> object = metric.reachable ? simulated(options) : nullptr;
+  const std::shared_ptr<const RangeScanner> alone = object ? nullptr : scanner(options);
+  const RangeScanner& scanner = object ? object->scanner() : *alone;
+  const std::string key =
+      fmt::format("{}{} {} {}", truth_key(options), metric.samples, metric.tolerance, metric.reachable);
+  const std::lock_guard lock(building_);
+  std::shared_ptr<const PointCoverage>& samples = samples_[key];
+  if (samples) return samples;
+  tbb::this_task_arena::isolate([&] {
+    PointCoverage none(scanner.mesh(), metric);
+    if (metric.reachable) {
+      PointCoverage reachable = none;
+      for (const View& view : options.candidate_views().views) {
+        const RangeImage image = scanner.scan(options.range_camera(), view);
+        const RayGrid rays = image.camera.rays();
+        std::vector<Vec3> points;
+        for (int row = 0; row < image.camera.resolution.rows; ++row) {
+          for (int column = 0; column < image.camera.resolution.columns; ++column) {
+            const float depth = image.at(column, row);
+            if (!RangeImage::is_hit(depth)) continue;
+            points.emplace_back(view.world_from_sensor *
+                                point_in_sensor(rays, column, row, static_cast<double>(depth)));
+          }
+        }
+        reachable.add(points);
+      }
+      none.count_only(reachable);
+    }
+    samples = std::make_shared<const PointCoverage>(std::move(none));
+  });
+  return samples;
+}
+
 }  // namespace vantage

@@ -7,6 +7,7 @@
 
 #include "vantage/core/triangle_mesh.hpp"
 #include "vantage/reconstruction/simulate.hpp"
+#include "vantage/simulation/point_coverage.hpp"
 
 namespace vantage {
 
@@ -22,12 +23,17 @@ class SweepObject {
   /// 16 hexadecimal digits that change with any vertex, triangle or size.
   [[nodiscard]] const std::string& digest() const { return digest_; }
   [[nodiscard]] double size() const { return size_; }
+  /// As it was given, not scaled.
+  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 
   /// The object in front of the scanner only, without what can be seen of it.
   [[nodiscard]] std::shared_ptr<const RangeScanner> scanner(const ReconstructOptions& options) const;
   /// The object in the simulator with what the candidates and camera of these options can see of it; shared by all runs
   /// that agree in those. Any thread may ask.
   [[nodiscard]] std::shared_ptr<const SimulatedObject> simulated(const ReconstructOptions& options) const;
+  /// The samples of `metric` on the object in its place, those that count among them; shared like `simulated`.
+  [[nodiscard]] std::shared_ptr<const PointCoverage> nothing_scanned(const ReconstructOptions& options,
+                                                                     const PointMetric& metric) const;
 
  private:
   std::string name_;
@@ -36,6 +42,7 @@ class SweepObject {
   std::string source_, digest_;
   mutable std::mutex building_;
   mutable std::map<std::string, std::shared_ptr<const SimulatedObject>> built_;
+  mutable std::map<std::string, std::shared_ptr<const PointCoverage>> samples_;
 };
 
 /// 64 bits of the bytes (FNV-1a) as 16 hexadecimal digits: tells files apart, no protection against malice.

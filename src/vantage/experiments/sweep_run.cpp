@@ -87,9 +87,11 @@ SweepRun reconstruction_run(const std::string& name, std::shared_ptr<const Sweep
             const std::shared_ptr<const SimulatedObject> simulated = object->simulated(options);
             RunOutcome outcome;
             RunObserver observer;
+            const ExtraMeasures::OnScan more = extra.per_scan ? extra.per_scan(*object, options) : nullptr;
             observer.interrupted = interrupted;
             observer.on_scan = [&](const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan*) {
               add_scan(outcome, record, scan, model);
+              if (more) more(record, scan, outcome);
             };
             std::optional<Utility> utility;
             if (extra.utility) utility = extra.utility(*simulated, options);

@@ -34,6 +34,9 @@ struct SweepRun {
 struct ExtraMeasures {
   std::string name;  // enters the configuration: change it whenever `add` changes what it writes
   std::function<void(const SimulatedRun&, const SimulatedObject&, RunOutcome&)> add;
+  /// Made for every run and told of its scans, after the lists below have got their entries.
+  using OnScan = std::function<void(const ScanRecord&, const Scan&, RunOutcome&)>;
+  std::function<OnScan(const SweepObject&, const ReconstructOptions&)> per_scan = {};
   /// Made for every run, instead of the utility that the options name; `name` must tell which it is.
   std::function<Utility(const SimulatedObject&, const ReconstructOptions&)> utility = {};
 };
