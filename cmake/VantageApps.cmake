@@ -26,6 +26,7 @@ target_link_libraries(vantage_full
   PUBLIC vantage_core vantage_registration vantage_simulation vantage_arm nlohmann_json::nlohmann_json
   PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf ZLIB::ZLIB)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/vantage/session/session_result.cpp
+  ${PROJECT_SOURCE_DIR}/src/vantage/server/session_page.cpp
   PROPERTIES COMPILE_DEFINITIONS VANTAGE_VERSION="${PROJECT_VERSION}")
 include(VantageViewer)
 target_sources(vantage_full PRIVATE ${vantage_viewer_source})

@@ -97,4 +97,11 @@ if(VANTAGE_APPS)
   # The whole script with 100 also feeds the frames of real scans one by one, which takes minutes: by hand.
   add_test(NAME session.slow COMMAND ${session_test} 100 Kills RealScans.test_apc_shelf)
   set_tests_properties(session.slow PROPERTIES LABELS slow TIMEOUT 2400)
+  set(http_test /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/session/http_test.py $<TARGET_FILE:vantage>
+    ${PROJECT_SOURCE_DIR}/docs/openapi.yaml ${PROJECT_SOURCE_DIR}/src/vantage/server/session_service.cpp
+    ${VANTAGE_SHARED_DATA})
+  add_test(NAME session.http COMMAND ${http_test} 3)
+  set_tests_properties(session.http PROPERTIES LABELS default TIMEOUT 240)
+  add_test(NAME session.http.slow COMMAND ${http_test} 60)
+  set_tests_properties(session.http.slow PROPERTIES LABELS slow TIMEOUT 2400)
 endif()

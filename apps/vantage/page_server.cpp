@@ -8,6 +8,7 @@
 
 #include "interrupt.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/server/admission.hpp"
 #include "vantage/server/random_name.hpp"
 
 namespace vantage::app {
@@ -22,11 +23,14 @@ int port_from_text(const std::string& text, const std::string& option) {
 
 void add_page_server_options(CLI::App& command, PageServerOptions& options) {
   command
-      .add_option("--host", options.host,
+      .add_option("--host,--bind", options.host,
                   "address that the page is served at; 0.0.0.0 lets other machines in, who then need the token")
       ->capture_default_str();
-  command.add_option("--token", options.token,
-                     "what browsers must know to come in (16 or more letters and digits); made up where it is needed");
+  command
+      .add_option("--token", options.token,
+                  "what browsers and robots must know to come in (16 or more letters and digits); made up where a page "
+                  "needs it")
+      ->envname("VANTAGE_TOKEN");
 }
 
 std::unique_ptr<HttpServer> page_server(const PageServerOptions& options, LiveRun& run) {

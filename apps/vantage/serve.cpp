@@ -1,10 +1,15 @@
+#include <fmt/core.h>
+
 #include <memory>
 #include <string>
 
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "page_server.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/server/admission.hpp"
 #include "vantage/server/folder_watch.hpp"
+#include "vantage/server/session_service.hpp"
 
 namespace vantage::app {
 namespace {
@@ -14,7 +19,28 @@ struct Request {
   PageServerOptions server;
 };
 
+void serve_session(const Request& request) {
+  require(!request.server.token.empty() || is_loopback(request.server.host),
+          "token: must be given where --bind = ", request.server.host,
+          " lets other machines in: 16 or more letters and digits, in --token or the environment's VANTAGE_TOKEN");
+  LiveRun run;
+  SessionService service(request.folder, run);
+  const SessionStatus status = service.session().status();
+  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", each);
+  for (const auto& [number, reason] : status.left_out)
+    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, reason);
+  const std::unique_ptr<HttpServer> server = page_server(request.server, run);
+  service.add_routes(*server);
+  catch_interrupts();
+  start_and_tell(*server);
+  wait_for_interrupt();
+}
+
 void serve(const Request& request) {
+  if (SessionFolder::is_session(request.folder)) {
+    serve_session(request);
+    return;
+  }
   LiveRun run;
   FolderWatch watch(request.folder, run);
   watch.look();
@@ -29,8 +55,8 @@ void serve(const Request& request) {
 void add_serve(CLI::App& program) {
   auto request = std::make_shared<Request>();
   CLI::App* command =
-      program.add_subcommand("serve", "Show a reconstruction in the browser, while it goes on or afterwards");
-  command->add_option("folder", request->folder, "output folder of a reconstruction")->required();
+      program.add_subcommand("serve", "Show a reconstruction in the browser, or give a session to robots and browsers");
+  command->add_option("folder", request->folder, "output folder of a reconstruction, or a session")->required();
   command->add_option("--port", request->server.port, "port of the page; 0: any free one")->capture_default_str();
   add_page_server_options(*command, request->server);
   command->callback([request] { serve(*request); });

@@ -33,8 +33,10 @@ struct Request {
 
 using Shared = std::shared_ptr<Request>;
 
-void tell_dropped(const std::vector<std::string>& dropped) {
-  for (const std::string& each : dropped) fmt::print(stderr, "vantage: {}\n", each);
+void tell_dropped(const SessionStatus& status) {
+  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", each);
+  for (const auto& [number, reason] : status.left_out)
+    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, reason);
 }
 
 void create(Request& request) {
@@ -53,7 +55,7 @@ ScanFolderOptions reading_options(const Request& request, const Session& session
 void add(Request& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
-  tell_dropped(session.status().dropped);
+  tell_dropped(session.status());
   const ScanFolderOptions reading = reading_options(request, session);
   std::vector<ScanFile> files;
   for (const std::string& path : request.scans) {
@@ -84,7 +86,7 @@ void next(Request& request) {
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
   require(request.reason.empty() || request.skip, "reason: belongs to --skip");
   Session session(request.folder);
-  tell_dropped(session.status().dropped);
+  tell_dropped(session.status());
   if (request.skip) session.skip(*request.skip, request.reason);
   if (request.unskip) session.unskip(*request.unskip);
   const SessionPlan plan = session.next();
@@ -98,7 +100,7 @@ void next(Request& request) {
 void status(Request& request) {
   Session session(request.folder);
   const SessionStatus status = session.status();
-  tell_dropped(status.dropped);
+  tell_dropped(status);
   if (request.program.json) {
     fmt::print("{}\n", status_json(status).dump(2));
     return;
@@ -113,7 +115,7 @@ void status(Request& request) {
 void finish(Request& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
-  tell_dropped(session.status().dropped);
+  tell_dropped(session.status());
   session.finish();
   if (!request.program.quiet) fmt::print("written to {}; open report.html there\n", request.folder);
 }

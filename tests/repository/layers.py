@@ -27,7 +27,7 @@ FOLDERS = {
     "session": (9, ["io"]),
     "experiments": (9, ["io"]),
     "doctor": (9, ["io"]),
-    "server": (9, ["io"]),
+    "server": (10, ["session"]),
 }
 
 # The library vantage::core: Eigen, oneTBB and the standard library, nothing else.

@@ -114,7 +114,7 @@ export class MockServer {
     request.on("data", (chunk) => (text += chunk));
     request.on("end", () => {
       const json = request.headers["content-type"] === "application/json";
-      this.posts.push({ action: request.url!.replace("/api/", ""), body: JSON.parse(text) as Json });
+      this.posts.push({ action: request.url!.replace("/api/session/", ""), body: JSON.parse(text) as Json });
       const problem = json ? this.refusal : "Content-Type must be application/json";
       this.refusal = null;
       response.writeHead(problem ? 409 : 202, { "Content-Type": "application/json" });

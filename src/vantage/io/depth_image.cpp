@@ -32,6 +32,7 @@ void DepthEncoding::validate() const {
           " m per unit: must be positive (0.001 for millimetres)");
   require(metres_per_unit <= 1, "depth scale = ", metres_per_unit,
           " m per unit: must be at most 1; it is metres per unit, not units per metre");
+  require(std::isfinite(metres_per_float) && metres_per_float > 0, "unit = ", metres_per_float, " m: must be positive");
   require(!no_return || *no_return > 0, "no_return = 0: 0 already means unknown");
 }
 
@@ -75,7 +76,9 @@ RangeImage parse_depth_png(std::string_view bytes, const RangeCamera& camera, co
   return range_image(image, camera, encoding);
 }
 
-RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, const std::string& name) {
+RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, const DepthEncoding& encoding,
+                           const std::string& name) {
+  encoding.validate();
   camera.validate();
   const auto pixels = static_cast<std::size_t>(camera.resolution.rays());
   if (bytes.size() != 4 * pixels) {
@@ -86,7 +89,7 @@ RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, co
   for (std::size_t i = 0; i < pixels; ++i) {
     std::uint32_t raw = 0;
     for (std::size_t k = 0; k < 4; ++k) raw |= std::uint32_t{static_cast<unsigned char>(bytes[4 * i + k])} << (8 * k);
-    result.depth[i] = within_limits(static_cast<double>(std::bit_cast<float>(raw)), camera);
+    result.depth[i] = within_limits(encoding.metres_per_float * static_cast<double>(std::bit_cast<float>(raw)), camera);
   }
   return result;
 }
@@ -95,7 +98,7 @@ RangeImage read_depth_image(const std::filesystem::path& path, const RangeCamera
                             const DepthEncoding& encoding) {
   const auto ending = path.extension();
   if (ending == ".png") return parse_depth_png(read_file(path), camera, encoding, path.string());
-  if (ending == ".raw") return parse_depth_raw(read_file(path), camera, path.string());
+  if (ending == ".raw") return parse_depth_raw(read_file(path), camera, encoding, path.string());
   throw InputError(path.string() + ": a depth image must be a .png or .raw file");
 }
 

@@ -16,6 +16,7 @@ struct DepthEncoding {
   double metres_per_unit = 0.001;
   /// The number that tells "nothing is there", where the sensor reports that; 65535 in our own frames.
   std::optional<std::uint16_t> no_return = std::nullopt;
+  double metres_per_float = 1;  // of images whose pixels are floating-point numbers
 
   /// Throws InputError naming the field.
   void validate() const;
@@ -37,7 +38,8 @@ inline constexpr DepthEncoding own_depth_encoding{.metres_per_unit = 0.001, .no_
                                           const DepthEncoding& encoding);
 [[nodiscard]] RangeImage parse_depth_png(std::string_view bytes, const RangeCamera& camera,
                                          const DepthEncoding& encoding, const std::string& name);
-[[nodiscard]] RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, const std::string& name);
+[[nodiscard]] RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera,
+                                         const DepthEncoding& encoding, const std::string& name);
 
 /// Columns and rows of a PNG depth image, from its header.
 [[nodiscard]] Resolution read_depth_resolution(const std::filesystem::path& path);

@@ -125,8 +125,9 @@ TEST(DepthImage, RawFloatsAreMetres) {
        {0.0, 1.5, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 9.0}) {
     append_float32(bytes, value);
   }
-  EXPECT_THAT(parse_depth_raw(bytes, small_camera(), "a.raw").depth, ElementsAre(0, 1.5F, 0, 0, no_return, no_return));
-  EXPECT_EQ(input_error_of([&] { (void)parse_depth_raw(bytes.substr(1), small_camera(), "a.raw"); }),
+  EXPECT_THAT(parse_depth_raw(bytes, small_camera(), {}, "a.raw").depth,
+              ElementsAre(0, 1.5F, 0, 0, no_return, no_return));
+  EXPECT_EQ(input_error_of([&] { (void)parse_depth_raw(bytes.substr(1), small_camera(), {}, "a.raw"); }),
             "a.raw: has 23 bytes; 3x2 pixels of float32 are 24");
 }
 

@@ -176,6 +176,10 @@ Json state_json(const RunData& run) {
   return {{"state", state_name(run.state)}, {"stop_reason", run.stop_reason}, {"summary", summary_json(run)}};
 }
 
+Json setup_json(const RunData& run) {
+  return {{"camera", camera_json(run.camera)}, {"candidates", candidates_json(run)}};
+}
+
 Json run_json(const RunData& run) {
   Json scans = Json::array();
   for (const RecordedScan& scan : run.scans) scans.push_back(scan_json(scan));

@@ -14,6 +14,8 @@ namespace vantage {
 /// Cloud and mesh of the run as it is, and how it stands.
 [[nodiscard]] nlohmann::ordered_json result_json(const RunData& run);
 [[nodiscard]] nlohmann::ordered_json state_json(const RunData& run);
+/// Camera and candidates.
+[[nodiscard]] nlohmann::ordered_json setup_json(const RunData& run);
 /// The whole document.
 [[nodiscard]] nlohmann::ordered_json run_json(const RunData& run);
 

@@ -15,6 +15,7 @@
 #include "vantage/io/organised_normals.hpp"
 #include "vantage/io/point_cloud_file.hpp"
 #include "vantage/io/pose_source.hpp"
+#include "vantage/io/scan_bytes.hpp"
 #include "vantage/io/text_reader.hpp"
 
 namespace vantage {
@@ -82,6 +83,14 @@ Resolution image_resolution(const Found& frame, const Intrinsics& intrinsics) {
   return *intrinsics.resolution;
 }
 
+std::vector<Pose> sensor_poses(const fs::path& folder, const std::vector<Found>& scans,
+                               const ScanFolderOptions& options) {
+  std::vector<Pose> poses = poses_of_scans(folder, options.poses, names_of(scans));
+  const Pose hand_eye = hand_eye_offset(options);
+  for (Pose& pose : poses) pose = sensor_pose(pose, hand_eye, options);
+  return poses;
+}
+
 ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& frames, const ScanFolderOptions& options) {
   const fs::path file = intrinsics_file(folder, options);
   const Intrinsics intrinsics = read_intrinsics(file);
@@ -94,48 +103,34 @@ ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& fram
   }
   camera.min_depth = options.depth_range[0];
   camera.max_depth = options.depth_range[1];
-  DepthEncoding encoding{.metres_per_unit = options.depth_scale, .no_return = std::nullopt};
-  if (options.no_return) encoding.no_return = static_cast<std::uint16_t>(*options.no_return);
-  const std::vector<Pose> poses = poses_of_scans(folder, options.poses, names_of(frames));
+  const DepthEncoding encoding = depth_encoding(options);
+  const std::vector<Pose> poses = sensor_poses(folder, frames, options);
   ScanSet set{{}, camera};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const fs::path path = frames[i].path;
-    set.scans.push_back({frames[i].name, View{poses[i]}, [path, camera, encoding, intrinsics] {
-                           return scan_of(undistorted(read_depth_image(path, camera, encoding), intrinsics));
+    const View view{poses[i]};
+    set.scans.push_back({frames[i].name, view, [path, camera, encoding, intrinsics, view, options] {
+                           return cropped(scan_of(undistorted(read_depth_image(path, camera, encoding), intrinsics)),
+                                          view, options);
                          }});
   }
   return set;
 }
 
-/// A cloud as points in the sensor's frame with sight lines from its origin.
-Scan scan_of_cloud(const CloudFile& file) {
-  const Pose sensor_from_cloud = file.cloud_from_sensor.inverse();
-  PointScan scan;
-  scan.origins = {Vec3::Zero()};
-  for (const Vec3& point : file.cloud.points) scan.points.push_back(sensor_from_cloud * point);
-  const bool has_normals =
-      std::any_of(file.cloud.normals.begin(), file.cloud.normals.end(), [](const Vec3& n) { return !n.isZero(0); });
-  if (has_normals) {
-    for (std::size_t i = 0; i < scan.points.size(); ++i) {
-      const Vec3 normal = sensor_from_cloud.linear() * file.cloud.normals[i];
-      scan.normals.push_back((normal.dot(scan.points[i]) > 0 ? Vec3(-normal) : normal).cast<float>());
-    }
-  } else if (file.grid.rows > 0) {
-    scan.normals = organised_normals(file.grid, file.point_of_cell, scan.points, scan.origins);
-  }
-  return scan;
-}
-
 ScanSet open_clouds(const fs::path& folder, const std::vector<Found>& files, const ScanFolderOptions& options) {
-  const std::vector<Pose> poses = poses_of_scans(folder, options.poses, names_of(files));
+  const std::vector<Pose> poses = sensor_poses(folder, files, options);
   ScanSet set;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const fs::path path = files[i].path;
     // Only a PCD file has a viewpoint of its own, and its header has to be read for it.
-    const Pose cloud_from_sensor =
+    Pose cloud_from_sensor =
         cloud_format(path) == CloudFormat::pcd ? read_cloud(path).cloud_from_sensor : Pose(Pose::Identity());
-    set.scans.push_back(
-        {files[i].name, View{poses[i] * cloud_from_sensor}, [path] { return scan_of_cloud(read_cloud(path)); }});
+    cloud_from_sensor.translation() *= options.metres_per_unit();
+    const View view{options.cloud_frame == "world" ? poses[i] : Pose(poses[i] * cloud_from_sensor)};
+    set.scans.push_back({files[i].name, view, [path, view, options] {
+                           return cropped(scan_of_cloud(read_cloud(path), view.world_from_sensor, options), view,
+                                          options);
+                         }});
   }
   return set;
 }
@@ -159,8 +154,10 @@ ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
     const fs::path path = file.parent_path() / scan.file;
     require(fs::exists(path), file.string(), ": names the scan ", in_quotes(scan.file),
             ", which does not lie beside it");
-    set.scans.push_back({path.stem().string(), View{scan.world_from_scan},
-                         [path, origin = options.scanner_origin] { return read_line_scan(path, origin); }});
+    const View view{scan.world_from_scan};
+    set.scans.push_back({path.stem().string(), view, [path, view, options] {
+                           return cropped(read_line_scan(path, options.scanner_origin), view, options);
+                         }});
   }
   return set;
 }
@@ -195,7 +192,21 @@ ScanSet open_file(const fs::path& path, const ScanFolderOptions& options) {
 
 }  // namespace
 
+double ScanFolderOptions::metres_per_unit() const {
+  constexpr std::array<std::pair<std::string_view, double>, 4> units{
+      {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}}};
+  for (const auto& [name, metres] : units) {
+    if (unit == name) return metres;
+  }
+  throw InputError("unit = '" + unit + "': must be m, cm, mm or inch");
+}
+
 void ScanFolderOptions::validate() const {
+  (void)metres_per_unit();
+  require(!crop || (crop->allFinite() && (crop->tail<3>().array() > 0).all()),
+          "crop: must be cx,cy,cz,sx,sy,sz with positive sizes");
+  require(cloud_frame == "sensor" || cloud_frame == "world", "cloud-frame = '", cloud_frame,
+          "': must be sensor or world");
   DepthEncoding{.metres_per_unit = depth_scale, .no_return = std::nullopt}.validate();
   require(depth_range.allFinite() && depth_range[0] >= 0 && depth_range[1] > depth_range[0],
           "depth range = ", depth_range[0], ",", depth_range[1], " m: must be NEAR,FAR with 0 <= NEAR < FAR");

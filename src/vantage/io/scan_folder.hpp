@@ -25,9 +25,19 @@ struct ScanFolderOptions {
   std::string intrinsics = "";
   /// y and z of the point where the sight lines of a Stanford scan meet, metres in its frame.
   Eigen::Vector2d scanner_origin{0.18, 1.3};
+  /// Unit of poses, clouds and floating-point depths: m, cm, mm or inch.
+  std::string unit = "m";
+  /// Pose of the sensor in the frame of the robot's hand, whose poses are given then: seven numbers x,y,z,qx,qy,qz,qw
+  /// or a pose file; empty: the poses are the sensor's.
+  std::string hand_eye = "";
+  /// World box cx cy cz sx sy sz, metres: what is measured outside says nothing.
+  std::optional<Eigen::Matrix<double, 6, 1>> crop = std::nullopt;
+  /// Frame of a cloud's points, sensor or world; then the pose says only where the sensor was.
+  std::string cloud_frame = "sensor";
 
   /// Throws InputError naming the option.
   void validate() const;
+  [[nodiscard]] double metres_per_unit() const;
 };
 
 template <class Field>
@@ -37,6 +47,11 @@ void describe(ScanFolderOptions& o, Field&& field) {
   field("no-return", o.no_return, "", "value of a depth image that says that nothing is there");
   field("poses", o.poses, "", "folder of pose files or trajectory (TUM); beside the frames if not given");
   field("intrinsics", o.intrinsics, "", "file with the intrinsics; one of the usual names if not given");
+  field("unit", o.unit, "", "unit of poses, clouds and floating-point depths: m, cm, mm or inch");
+  field("hand-eye", o.hand_eye, "unit",
+        "pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's");
+  field("crop", o.crop, "m", "box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing");
+  field("cloud-frame", o.cloud_frame, "", "frame of the points of clouds: sensor, or world");
   field("scanner-origin", o.scanner_origin, "m", "y,z of the sight lines' origin of a line scanner (.conf)");
 }
 

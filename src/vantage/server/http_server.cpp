@@ -1,6 +1,5 @@
 #include "vantage/server/http_server.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <httplib.h>
 
@@ -11,12 +10,14 @@
 #include <thread>
 
 #include "vantage/core/error.hpp"
+#include "vantage/server/admission.hpp"
 #include "vantage/server/live_run.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr std::size_t piece = std::size_t{64} * 1024;  // bytes sent between two looks at whether the server ends
+constexpr std::size_t most_dropped = std::size_t{256} << 20U;  // bytes of a refused body that are read all the same
 constexpr std::chrono::milliseconds event_patience{1000};
 constexpr int quiet_rounds = 15;  // of event_patience, then a greeting tells the browser that we are alive
 
@@ -25,31 +26,27 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Takes as long whatever the texts are.
-bool same_secret(const std::string& a, const std::string& b) {
-  if (a.size() != b.size()) return false;
-  unsigned difference = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned char>(a[i] ^ b[i]);
-  return difference == 0;
+std::optional<HttpRoute::Method> method_of(const httplib::Request& request) {
+  if (request.method == "GET" || request.method == "HEAD") return HttpRoute::Method::get;
+  if (request.method == "POST") return HttpRoute::Method::post;
+  return std::nullopt;
 }
 
-/// The name in a Host header, without port and brackets.
-std::string host_name(const std::string& header) {
-  if (header.starts_with('[')) return header.substr(1, header.find(']') - 1);
-  return lower(header.substr(0, header.find(':')));
+/// What was wrong with a request that the library refuses before we see it.
+std::string text_of(int status) {
+  if (status == 400) return "the request line or a header is not HTTP/1.1, or is longer than 8192 characters";
+  if (status == 414) return "the address is longer than 8192 characters";
+  if (status == 416) return "the header Range asks for what the answer does not have";
+  return concat("HTTP status ", status);
 }
 
-std::string cookie_value(const std::string& cookies, const std::string& name) {
-  std::size_t at = 0;
-  while (at < cookies.size()) {
-    const std::size_t end = std::min(cookies.find(';', at), cookies.size());
-    const std::string one = cookies.substr(at, end - at);
-    const std::size_t begin = one.find_first_not_of(' ');
-    if (begin != std::string::npos && one.compare(begin, name.size() + 1, name + "=") == 0)
-      return one.substr(begin + name.size() + 1);
-    at = end + 1;
+/// Counts the caller in until the result is gone; null where `most` are in already (0: no limit).
+std::shared_ptr<void> take_place(std::shared_ptr<std::atomic<int>> count, int most) {
+  if (++*count > most && most > 0) {
+    --*count;
+    return nullptr;
   }
-  return {};
+  return {static_cast<void*>(count.get()), [count](void*) { --*count; }};
 }
 
 void give(httplib::Response& response, const HttpAnswer& answer) {
@@ -112,17 +109,12 @@ HttpAnswer HttpAnswer::error(int status, const std::string& text) {
   return answer;
 }
 
-bool is_loopback(const std::string& host) {
-  in_addr v4{};
-  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return (ntohl(v4.s_addr) >> 24U) == 127;
-  return lower(host) == "localhost" || host == "::1";
-}
-
 void HttpServerOptions::validate() const {
   require(!host.empty(), "host: must not be empty");
   require(port >= 0 && port <= 65535, "port = ", port, ": must be 0 (any free one) to 65535");
   require(max_connections >= 2, "max_connections = ", max_connections, ": must be at least 2");
   require(timeout >= 1, "timeout = ", timeout, " s: must be at least 1");
+  require(body_time >= 1, "body_time = ", body_time, " s: must be at least 1");
   require(is_loopback(host) || token.size() >= 16, "token: must have at least 16 characters where host = ", host,
           " lets other machines in");
   require(std::all_of(token.begin(), token.end(),
@@ -131,46 +123,78 @@ void HttpServerOptions::validate() const {
 }
 
 struct HttpServer::Connections {
+  using Method = std::optional<HttpRoute::Method>;  // nothing: neither GET nor POST
+  struct Served {
+    HttpRoute route;
+    std::shared_ptr<std::atomic<int>> now = std::make_shared<std::atomic<int>>(0);  // requests under way
+  };
+
   HttpServerOptions options;
   int port = 0;
-  std::map<std::pair<HttpRoute::Method, std::string>, HttpRoute> routes;
+  std::map<std::pair<HttpRoute::Method, std::string>, Served> routes;
   std::map<std::string, LiveRun*> events;
   std::shared_ptr<std::atomic<int>> listeners = std::make_shared<std::atomic<int>>(0);
   httplib::Server server;
   std::thread thread;
 
-  /// Why the request is refused, if it is.
-  [[nodiscard]] std::optional<HttpAnswer> refusal(const httplib::Request& request) const {
-    if (options.token.empty()) {
-      if (is_loopback(host_name(request.get_header_value("Host")))) return std::nullopt;
-      return HttpAnswer::error(403, "this server answers only to its own name, localhost");
-    }
-    const std::string bearer = request.get_header_value("Authorization");
-    for (const std::string& given :
-         {request.get_param_value("token"), cookie_value(request.get_header_value("Cookie"), cookie_name()),
-          bearer.starts_with("Bearer ") ? bearer.substr(7) : std::string()})
-      if (same_secret(given, options.token)) return std::nullopt;
-    return HttpAnswer::error(401, "the token is missing or wrong; open the address that the program printed");
-  }
-
   [[nodiscard]] std::string cookie_name() const { return fmt::format("vantage-{}", port); }
 
+  /// Why the request is refused by what its head says, if it is.
+  [[nodiscard]] std::optional<HttpAnswer> refusal(Method method, const httplib::Request& request) const {
+    const Caller caller{.host = request.get_header_value("Host"),
+                        .origin = request.get_header_value("Origin"),
+                        .query_token = request.get_param_value("token"),
+                        .cookies = request.get_header_value("Cookie"),
+                        .authorization = request.get_header_value("Authorization")};
+    if (const auto refused = why_refused(caller, options.token, cookie_name()))
+      return HttpAnswer::error(refused->status, refused->text);
+    if (method == HttpRoute::Method::get && events.contains(request.path)) return std::nullopt;
+    const auto found = method ? routes.find({*method, request.path}) : routes.end();
+    if (found == routes.end()) return no_route(request);
+    if (method != HttpRoute::Method::post) return std::nullopt;
+    const HttpRoute& route = found->second.route;
+    if (const std::string type = content_type(request); type != route.body_type)
+      return HttpAnswer::error(415, concat("Content-Type = ", type, ": must be ", route.body_type));
+    if (request.get_header_value<std::uint64_t>("Content-Length") > route.max_body) return too_long(route);
+    return std::nullopt;
+  }
+
+  [[nodiscard]] HttpAnswer no_route(const httplib::Request& request) const {
+    const bool gets = routes.contains({HttpRoute::Method::get, request.path}) || events.contains(request.path);
+    const bool posts = routes.contains({HttpRoute::Method::post, request.path});
+    if (!gets && !posts) return HttpAnswer::error(404, concat(request.path, ": there is nothing under this path"));
+    return HttpAnswer::error(405, concat(request.path, ": the method is ", request.method, ", must be ",
+                                         gets ? (posts ? "GET or POST" : "GET") : "POST"));
+  }
+
+  [[nodiscard]] static HttpAnswer too_long(const HttpRoute& route) {
+    return HttpAnswer::error(413, concat("the body is longer than ", route.max_body, " bytes"));
+  }
+
+  [[nodiscard]] static std::string content_type(const httplib::Request& request) {
+    const std::string type = request.get_header_value("Content-Type");
+    return lower(type.substr(0, type.find_first_of("; ")));
+  }
+
   void listen_to_events(httplib::Response& response, LiveRun& run) const {
-    auto place = std::shared_ptr<void>(nullptr, [count = listeners](void*) { --*count; });
-    if (++*listeners > options.max_connections / 2) {
-      give(response, HttpAnswer::error(503, "too many browsers look at this run"));
+    auto place = take_place(listeners, options.max_connections / 2);
+    if (!place) {
+      give(response, HttpAnswer::error(503, concat("at most ", options.max_connections / 2,
+                                                   " may listen to events at a time; try again later")));
       return;
     }
     send_events(response, run, std::move(place));
   }
 
-  void answer(HttpRoute::Method method, const httplib::Request& request, httplib::Response& response,
+  void answer(Method method, const httplib::Request& request, httplib::Response& response,
               const httplib::ContentReader* body) const {
-    if (const auto refused = refusal(request)) {
+    if (const auto refused = refusal(method, request)) {
+      // To the end, or else the client finds the connection broken and not the answer.
+      if (body != nullptr) (void)receive(*body, 0);
       give(response, *refused);
       return;
     }
-    if (same_secret(request.get_param_value("token"), options.token) && !options.token.empty()) {
+    if (!options.token.empty() && same_secret(request.get_param_value("token"), options.token)) {
       response.set_header("Set-Cookie",
                           fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie_name(), options.token));
     }
@@ -178,39 +202,51 @@ struct HttpServer::Connections {
       listen_to_events(response, *run->second);
       return;
     }
-    const auto route = routes.find({method, request.path});
-    if (route == routes.end()) {
-      const auto other = method == HttpRoute::Method::get ? HttpRoute::Method::post : HttpRoute::Method::get;
-      const bool known = routes.contains({other, request.path}) || events.contains(request.path);
-      give(response, known ? HttpAnswer::error(405, "not with this method") : HttpAnswer::error(404, "no such path"));
-      return;
+    const Served& served = routes.at({*method, request.path});
+    HttpRequest read;
+    for (const auto& [name, value] : request.params) read.query.emplace(name, value);
+    read.content_type = content_type(request);
+    give(response, body == nullptr ? answer_of(served.route, read) : answer_post(served, read, *body));
+  }
+
+  HttpAnswer answer_post(const Served& served, HttpRequest& read, const httplib::ContentReader& body) const {
+    const HttpRoute& route = served.route;
+    const auto place = take_place(served.now, route.at_once);
+    Received received = receive(body, place ? route.max_body : 0);
+    if (!place) {
+      return HttpAnswer::error(
+          503, concat(route.path, ": at most ", route.at_once, " requests are answered at a time; try again later"));
     }
-    give(response,
-         body != nullptr ? answer_post(route->second, request, *body) : answer_of(route->second, plain(request)));
-  }
-
-  static HttpRequest plain(const httplib::Request& request) {
-    HttpRequest result;
-    for (const auto& [name, value] : request.params) result.query.emplace(name, value);
-    const std::string type = request.get_header_value("Content-Type");
-    result.content_type = lower(type.substr(0, type.find_first_of("; ")));
-    return result;
-  }
-
-  static HttpAnswer answer_post(const HttpRoute& route, const httplib::Request& request,
-                                const httplib::ContentReader& body) {
-    HttpRequest read = plain(request);
-    if (read.content_type != route.body_type)
-      return HttpAnswer::error(415, concat("Content-Type must be ", route.body_type));
-    bool too_long = false;
-    const bool complete = body([&](const char* data, std::size_t size) {
-      too_long = read.body.size() + size > route.max_body;
-      if (!too_long) read.body.append(data, size);
-      return !too_long;
-    });
-    if (too_long) return HttpAnswer::error(413, concat("the body is longer than ", route.max_body, " bytes"));
-    if (!complete) return HttpAnswer::error(400, "the body did not arrive completely");
+    if (received.too_slow)
+      return HttpAnswer::error(408, concat("the body did not arrive within ", options.body_time, " s"));
+    if (received.too_long) return too_long(route);
+    if (!received.complete) return HttpAnswer::error(400, "the body did not arrive completely");
+    read.body = std::move(received.bytes);
     return answer_of(route, read);
+  }
+
+  struct Received {
+    std::string bytes;
+    bool complete = false, too_long = false, too_slow = false;
+  };
+
+  /// Reads a body; what is beyond `max` bytes is read too, within limits, and thrown away.
+  [[nodiscard]] Received receive(const httplib::ContentReader& body, std::size_t max) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.body_time);
+    Received received;
+    std::size_t dropped = 0;
+    received.complete = body([&](const char* data, std::size_t size) {
+      received.too_slow = std::chrono::steady_clock::now() > end;
+      if (received.too_slow) return false;
+      if (received.too_long || received.bytes.size() + size > max) {
+        received.too_long = true;
+        received.bytes = {};
+        return (dropped += size) <= most_dropped;
+      }
+      received.bytes.append(data, size);
+      return true;
+    });
+    return received;
   }
 };
 
@@ -239,28 +275,45 @@ HttpServer::HttpServer(HttpServerOptions options) : connections_(std::make_uniqu
         "connect-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'"}});
   c.server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
     if (response.has_header("Content-Type")) return;
-    response.set_content(*HttpAnswer::error(response.status, concat("HTTP status ", response.status)).body,
-                         "application/json");
+    response.set_content(*HttpAnswer::error(response.status, text_of(response.status)).body, "application/json");
   });
-  c.server.Get(".*", [&c](const httplib::Request& request, httplib::Response& response) {
-    c.answer(HttpRoute::Method::get, request, response, nullptr);
+  c.server.set_exception_handler([](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
+    give(response, HttpAnswer::error(500, "the request could not be answered"));
   });
-  c.server.Post(".*",
-                [&c](const httplib::Request& request, httplib::Response& response, const httplib::ContentReader& body) {
-                  c.answer(HttpRoute::Method::post, request, response, &body);
-                });
+  c.server.set_expect_100_continue_handler([&c](const httplib::Request& request, httplib::Response& response) {
+    const auto refused = c.refusal(method_of(request), request);
+    if (!refused) return 100;
+    give(response, *refused);
+    return refused->status;
+  });
+  // The library would take forms apart in a way of its own where it recognises them, which is by their case.
+  c.server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response&) {
+    for (auto& [name, value] : const_cast<httplib::Request&>(request).headers)
+      if (lower(name) == "content-type" && value.starts_with("multipart")) value[0] = 'M';
+    return httplib::Server::HandlerResponse::Unhandled;
+  });
+  const auto plain = [&c](const httplib::Request& request, httplib::Response& response) {
+    c.answer(method_of(request), request, response, nullptr);
+  };
+  const auto with_body = [&c](const httplib::Request& request, httplib::Response& response,
+                              const httplib::ContentReader& body) {
+    c.answer(method_of(request), request, response, &body);
+  };
+  c.server.Get(".*", plain).Options(".*", plain).Delete(".*", plain);
+  c.server.Post(".*", with_body).Put(".*", with_body).Patch(".*", with_body).Delete(".*", with_body);
 }
 
 HttpServer::~HttpServer() { stop(); }
 
 void HttpServer::add(HttpRoute route) {
   require(route.path.starts_with('/'), "path = '", route.path, "': must begin with /");
-  // A page of another site may send these without asking the server first.
-  constexpr std::array simple{"text/plain", "application/x-www-form-urlencoded", "multipart/form-data"};
+  // A page of another site may send these without asking the server first; forms with files are wanted, and come only
+  // from our own pages (refusal()).
+  constexpr std::array simple{"text/plain", "application/x-www-form-urlencoded"};
   require(std::find(simple.begin(), simple.end(), route.body_type) == simple.end(), "body_type = ", route.body_type,
           ": must not be one that other web pages may send");
   const auto key = std::pair(route.method, route.path);
-  connections_->routes.insert_or_assign(key, std::move(route));
+  connections_->routes.insert_or_assign(key, Connections::Served{std::move(route)});
 }
 
 void HttpServer::add_events(const std::string& path, LiveRun& run) { connections_->events[path] = &run; }

@@ -43,6 +43,7 @@ struct HttpRoute {
   std::function<HttpAnswer(const HttpRequest&)> handle = {};
   std::string body_type = "application/json";     // of a POST; browsers send it across sites only where they may
   std::size_t max_body = std::size_t{64} * 1024;  // bytes
+  int at_once = 0;                                // POSTs under way at a time, others get 503; 0: no limit
 };
 
 struct HttpServerOptions {
@@ -51,18 +52,15 @@ struct HttpServerOptions {
   std::string token = {};          // who knows it may come in; empty: everybody, on a loopback address only
   int max_connections = 64;        // at a time; half of them may listen to events
   int timeout = 5;                 // seconds that a browser may keep a connection waiting
+  int body_time = 60;              // seconds that the body of a request may take
 
   /// Throws InputError naming the field.
   void validate() const;
 };
 
-/// Whether only programs of this machine reach `host`.
-[[nodiscard]] bool is_loopback(const std::string& host);
-
-/// HTTP for the page: answers only what was added, so no file of the machine can be asked for. Requests that carry the
-/// name of another host are refused, which keeps other web pages from reaching a server on this machine through DNS.
-/// With a token every request needs it: in the query (`?token=`, which leaves a cookie behind), as cookie, or as
-/// bearer.
+/// HTTP for the page and for robots: answers only what was added, so no file of the machine can be asked for, and only
+/// to those who are let in (admission.hpp). With a token every request needs it: in the query (`?token=`, which leaves
+/// a cookie behind), as cookie, or as bearer. Every error is {"error": text}.
 class HttpServer {
  public:
   explicit HttpServer(HttpServerOptions options);

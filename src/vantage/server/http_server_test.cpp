@@ -27,13 +27,20 @@ struct Served {
   LiveRun run;
   HttpServer server;
   std::unique_ptr<httplib::Client> client;
+  std::atomic<bool> entered = false, holds = false;  // /api/one
 
   explicit Served(HttpServerOptions options = {}) : server(std::move(options)) {
     add_page(server, run);
-    server.add({.method = HttpRoute::Method::post,
-                .path = "/api/echo",
-                .handle = [](const HttpRequest& request) { return said(request.body); },
-                .max_body = 1000});
+    const auto echo = [](const HttpRequest& request) { return said(request.body); };
+    server.add({.method = HttpRoute::Method::post, .path = "/api/echo", .handle = echo, .max_body = 1000});
+    server.add(
+        {.method = HttpRoute::Method::post, .path = "/api/form", .handle = echo, .body_type = "multipart/form-data"});
+    const auto hold = [this, echo](const HttpRequest& request) {
+      entered = true;
+      while (holds) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return echo(request);
+    };
+    server.add({.method = HttpRoute::Method::post, .path = "/api/one", .handle = hold, .at_once = 1});
     server.add({.path = "/api/fail", .handle = [](const HttpRequest& request) -> HttpAnswer {
                   if (request.query.contains("conflict")) throw HttpError(409, "not now");
                   if (request.query.contains("input")) throw InputError("view = -1: must be positive");
@@ -156,21 +163,27 @@ TEST(HttpServer, LimitsTheNumberOfListeners) {
 
 TEST(HttpServer, AnswersMistakesWithJson) {
   Served s;
-  for (const auto& [path, status, text] : {std::tuple{"/nowhere", 404, "no such path"},
-                                           {"/../../etc/passwd", 404, "no such path"},
-                                           {"/%2e%2e/etc/passwd", 404, "no such path"},
-                                           {"/api/echo", 405, "not with this method"},
-                                           {"/api/fail?conflict=1", 409, "not now"},
-                                           {"/api/fail?input=1", 400, "view = -1: must be positive"},
-                                           {"/api/fail", 500, "broken"}}) {
+  for (const auto& [path, status, text] :
+       {std::tuple{"/nowhere", 404, "/nowhere: there is nothing under this path"},
+        {"/../../etc/passwd", 404, "/../../etc/passwd: there is nothing under this path"},
+        {"/%2e%2e/etc/passwd", 404, "/../etc/passwd: there is nothing under this path"},
+        {"/api/echo", 405, "/api/echo: the method is GET, must be POST"},
+        {"/api/fail?conflict=1", 409, "not now"},
+        {"/api/fail?input=1", 400, "view = -1: must be positive"},
+        {"/api/fail", 500, "broken"}}) {
     const auto answer = s.get(path);
     ASSERT_TRUE(answer) << path;
     EXPECT_EQ(answer->status, status) << path;
     EXPECT_EQ(error_of(answer), text) << path;
   }
-  const auto other = s.client->Delete("/api/run");
-  EXPECT_GE(other->status, 400);
-  EXPECT_FALSE(error_of(other).empty());
+  for (const auto& other : {s.client->Delete("/api/run"), s.client->Put("/api/run", "{}", "application/json"),
+                            s.client->Patch("/api/run", "{}", "application/json"), s.client->Options("/api/run")}) {
+    EXPECT_EQ(other->status, 405);
+    EXPECT_THAT(error_of(other), HasSubstr("must be GET"));
+  }
+  const auto too_long = s.get("/" + std::string(9000, 'a'));
+  EXPECT_EQ(too_long->status, 414);
+  EXPECT_THAT(error_of(too_long), HasSubstr("8192"));
 }
 
 TEST(HttpServer, TakesOnlyBodiesOfTheRightTypeAndSize) {
@@ -191,7 +204,62 @@ TEST(HttpServer, TakesOnlyBodiesOfTheRightTypeAndSize) {
         return true;
       },
       "application/json");
-  EXPECT_TRUE(!chunked || chunked->status == 413);  // the server may hang up before all is sent
+  ASSERT_TRUE(chunked);
+  EXPECT_EQ(chunked->status, 413);
+}
+
+TEST(HttpServer, ReadsLongBodiesThatItRefusesSoThatTheAnswerArrives) {
+  Served s(HttpServerOptions{.token = token});
+  const std::string long_body(std::size_t{8} << 20U, 'a');
+  for (int i = 0; i < 5; ++i) {
+    const auto stranger = s.post(long_body);
+    ASSERT_TRUE(stranger);
+    EXPECT_EQ(stranger->status, 401);
+    const auto friendly = s.client->Post("/api/echo?token=" + token, long_body, "application/json");
+    ASSERT_TRUE(friendly);
+    EXPECT_EQ(friendly->status, 413);
+  }
+}
+
+TEST(HttpServer, HandsFormsOverAsTheyCame) {
+  Served s;
+  const std::string form = "--B\r\nContent-Disposition: form-data; name=\"a\"\r\n\r\n1\r\n--B--\r\n";
+  EXPECT_EQ(s.client->Post("/api/form", form, "multipart/form-data; boundary=B")->body, form);
+  EXPECT_EQ(s.client->Post("/api/form", form, "Multipart/Form-Data; boundary=B")->body, form);
+  EXPECT_EQ(s.client->Post("/api/echo", form, "multipart/form-data; boundary=B")->status, 415);
+}
+
+TEST(HttpServer, ABodyMustArriveInTime) {
+  Served s(HttpServerOptions{.body_time = 1});
+  const auto slow = s.client->Post(
+      "/api/echo",
+      [](std::size_t, httplib::DataSink& sink) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        return sink.write("a", 1);
+      },
+      "application/json");
+  if (slow) {
+    EXPECT_EQ(slow->status, 408);
+    EXPECT_THAT(error_of(slow), HasSubstr("within 1 s"));
+  }
+  EXPECT_EQ(s.post("{}")->status, 200);
+}
+
+TEST(HttpServer, LimitsHowManyPostsAreUnderWay) {
+  Served s;
+  s.holds = true;
+  std::jthread first([&, port = s.server.port()] {
+    httplib::Client client("127.0.0.1", port);
+    client.set_read_timeout(60);
+    EXPECT_EQ(client.Post("/api/one", "{}", "application/json")->status, 200);
+  });
+  while (!s.entered) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto second = s.client->Post("/api/one", "{}", "application/json");
+  EXPECT_EQ(second->status, 503);
+  EXPECT_THAT(error_of(second), HasSubstr("at most 1 requests"));
+  s.holds = false;
+  first.join();
+  EXPECT_EQ(s.client->Post("/api/one", "{}", "application/json")->status, 200);
 }
 
 TEST(HttpServer, RefusesRequestsInAnothersName) {

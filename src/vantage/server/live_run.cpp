@@ -28,15 +28,20 @@ void apply(Json& document, std::string_view event, const Json& data) {
   if (event == "scan") {
     document["scans"].push_back(data);
     document["next"] = nullptr;
+    document.erase("take");
   } else if (event == "plan") {
     document["next"] = data;
+  } else if (event == "take") {
+    document["take"] = data;
+  } else if (event == "setup") {
+    take(document, {"camera", "candidates"});
   } else if (event == "state") {
     take(document["meta"], {"state"});
     take(document, {"stop_reason", "summary"});
   } else if (event == "result") {
     take(document, {"cloud", "mesh", "truth"});
   } else {
-    throw Error(concat("event '", event, "': must be scan, plan, state or result"));
+    throw Error(concat("event '", event, "': must be scan, plan, take, setup, state or result"));
   }
 }
 

@@ -27,8 +27,8 @@ class LiveRun {
 
   /// Shows `document` (RunData) from now on, with revision 0; readers are greeted anew.
   void begin(Json document);
-  /// Changes the document by one event, `scan`, `plan`, `state` or `result`, and tells the readers. Throws Error for
-  /// other names and before begin().
+  /// Changes the document by one event, `scan`, `plan`, `take`, `setup`, `state` or `result`, and tells the readers.
+  /// Throws Error for other names and before begin().
   void add(std::string_view event, const Json& data);
 
   /// The document with its `revision` as JSON text; null while there is none.

@@ -50,6 +50,18 @@ TEST(LiveRun, EventsChangeTheDocumentAsThePageDoes) {
   EXPECT_EQ(document["revision"], 4);
 }
 
+TEST(LiveRun, ForgetsWhichViewIsTakenOnceItsScanIsThere) {
+  LiveRun run;
+  run.begin({{"scans", Json::array()}, {"next", nullptr}, {"camera", 1}, {"candidates", 2}});
+  run.add("take", {{"candidate", 5}});
+  EXPECT_EQ(document_of(run)["take"]["candidate"], 5);
+  run.add("setup", {{"candidates", 3}});
+  EXPECT_EQ(document_of(run)["candidates"], 3);
+  EXPECT_EQ(document_of(run)["camera"], 1);
+  run.add("scan", {{"scan", 0}});
+  EXPECT_FALSE(document_of(run).contains("take"));
+}
+
 TEST(LiveRun, RefusesWhatIsNoEvent) {
   LiveRun run;
   run.begin(empty_run());

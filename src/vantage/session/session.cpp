@@ -28,7 +28,7 @@ void Session::create(const std::filesystem::path& folder, const ScanPlanningOpti
 }
 
 Session::Session(const std::filesystem::path& folder, OnScan on_scan)
-    : folder_(folder), on_scan_(std::move(on_scan)), model_(folder_.options()) {
+    : folder_(folder), on_scan_(std::move(on_scan)), model_(std::make_unique<SessionModel>(folder_.options())) {
   replay();
 }
 
@@ -41,12 +41,14 @@ void Session::replay() {
     } catch (const InputError& error) {
       folder_.set_aside(number, error.what());
       continue;
+    } catch (const std::exception& error) {
+      leave_out(number, error.what());
     }
     ++stored_;
-    integrate_one(*waiting, folder_.located(number));
+    if (waiting) integrate_one(*waiting, folder_.located(number));
   }
   skipped_ = folder_.skipped();
-  state_ = std::make_shared<const SessionState>(model_.state());
+  publish();
 }
 
 int Session::store(SessionScan scan) {
@@ -60,11 +62,23 @@ int Session::store(SessionScan scan) {
 }
 
 void Session::integrate_one(const Waiting& waiting, const std::optional<Located>& known) {
-  const Located found = model_.add(waiting.number, waiting.scan, known);
-  on_scan_(model_.model().scans.back(), model_.model());
-  if (known) return;
   try {
-    folder_.store_located(waiting.number, found);
+    model_is_whole_ = false;
+    const Located found = model_->add(waiting.number, waiting.scan, known);
+    model_is_whole_ = true;
+    if (!known) store_located(waiting.number, found);
+    if (state()) publish();
+    on_scan_(*model_);
+  } catch (const std::exception& error) {
+    leave_out(waiting.number, error.what());
+    model_is_whole_ = false;
+    merge_again();
+  }
+}
+
+void Session::store_located(int number, const Located& found) {
+  try {
+    folder_.store_located(number, found);
   } catch (const Error& error) {
     // The scan itself is safe, and registration will find the same again.
     const std::lock_guard looking(looking_);
@@ -72,25 +86,62 @@ void Session::integrate_one(const Waiting& waiting, const std::optional<Located>
   }
 }
 
-ScanRecord Session::integrate(int number) {
-  const std::lock_guard merging(merging_);
-  while (true) {
-    std::optional<Waiting> waiting;
-    {
-      const std::lock_guard storing(storing_);
-      if (waiting_.empty() || waiting_.front().number > number) break;
-      waiting = std::move(waiting_.front());
-      waiting_.pop_front();
+void Session::leave_out(int number, const std::string& why) {
+  const std::lock_guard looking(looking_);
+  left_out_[number] = why;
+}
+
+/// After a merging that broke off in the middle: the scans that the model has, but for those left out, from the disk.
+void Session::merge_again() {
+  std::vector<int> numbers = model_->numbers();
+  while (!model_is_whole_) {
+    std::erase_if(numbers, [this](int number) { return left_out_.contains(number); });
+    auto fresh = std::make_unique<SessionModel>(options());
+    int number = -1;
+    try {
+      for (const int each : numbers) {
+        number = each;
+        (void)fresh->add(number, folder_.read(number), folder_.located(number));
+      }
+      model_ = std::move(fresh);
+      model_is_whole_ = true;
+    } catch (const std::exception& error) {
+      leave_out(number, error.what());
     }
+  }
+  if (state()) publish();
+}
+
+void Session::publish() {
+  auto now = std::make_shared<const SessionState>(model_->state());
+  const std::lock_guard looking(looking_);
+  state_ = std::move(now);
+}
+
+std::optional<Session::Waiting> Session::next_waiting(int up_to) {
+  const std::lock_guard storing(storing_);
+  if (waiting_.empty() || waiting_.front().number > up_to) return std::nullopt;
+  Waiting waiting = std::move(waiting_.front());
+  waiting_.pop_front();
+  return waiting;
+}
+
+ScanRecord Session::integrate(int number) {
+  while (true) {
+    // One scan at a time, so that whoever waits for an earlier one does not wait for all.
+    const std::lock_guard merging(merging_);
+    if (!model_is_whole_) merge_again();
+    const std::optional<Waiting> waiting = next_waiting(number);
+    if (!waiting) break;
     integrate_one(*waiting, std::nullopt);
-    auto after = std::make_shared<const SessionState>(model_.state());
-    const std::lock_guard looking(looking_);
-    state_ = std::move(after);
   }
   const auto now = state();
   const auto found = std::find(now->numbers.begin(), now->numbers.end(), number);
-  require(found != now->numbers.end(), "scan ", number, ": is not in the session");
-  return now->scans[static_cast<std::size_t>(found - now->numbers.begin())];
+  if (found != now->numbers.end()) return now->scans[static_cast<std::size_t>(found - now->numbers.begin())];
+  const std::lock_guard looking(looking_);
+  require(left_out_.contains(number), "scan ", number, ": is not in the session");
+  throw Error(fmt::format("scan {} is safe on disk but could not be merged: {}; opening the session tries it again",
+                          number, left_out_.at(number)));
 }
 
 std::shared_ptr<const SessionState> Session::state() const {
@@ -151,6 +202,7 @@ SessionStatus Session::status() {
   status.merged = static_cast<std::size_t>(std::count_if(state_->scans.begin(), state_->scans.end(),
                                                          [](const ScanRecord& record) { return record.merged; }));
   status.skipped = skipped_;
+  status.left_out = left_out_;
   status.dropped = folder_.dropped();
   status.warnings = warnings_;
   return status;
@@ -158,7 +210,7 @@ SessionStatus Session::status() {
 
 PointCloud Session::cloud() {
   const std::lock_guard merging(merging_);
-  return object_cloud(model_.model());
+  return object_cloud(model_->model());
 }
 
 }  // namespace vantage

@@ -22,8 +22,9 @@ struct SessionStatus {
   std::size_t stored = 0, integrated = 0, merged = 0;
   std::shared_ptr<const SessionState> state;
   std::map<int, std::string> skipped;
-  std::vector<std::string> dropped;   // what opening it left out
-  std::vector<std::string> warnings;  // what could not be written since
+  std::map<int, std::string> left_out;  // scans that are safe on disk but could not be read or merged, with the reason
+  std::vector<std::string> dropped;     // what opening it left out
+  std::vector<std::string> warnings;    // what could not be written since
 };
 
 /// A reconstruction that lives in a folder over hours and restarts: scans are added to it and views asked of it.
@@ -31,7 +32,8 @@ struct SessionStatus {
 /// Every scan is safe on disk before its number is given out. Any thread may call any member at any time: scans are
 /// registered one after the other in the order of their numbers, and next() and status() answer from the last one that
 /// was integrated, without waiting for a registration. The same scans give the same map and plans to the last bit,
-/// whether they come at once or with restarts between them, and the same as `plan`.
+/// whether they come at once or with restarts between them, and the same as `plan`. A scan whose merging fails by an
+/// exception (no memory) is left out, and merged when the session opens again; the others are not touched by it.
 class Session {
  public:
   /// Makes a session of the folder. The options must have a box. Throws InputError naming the option, or where the
@@ -39,10 +41,11 @@ class Session {
   static void create(const std::filesystem::path& folder, const ScanPlanningOptions& options);
   /// Opens a session and merges its scans again where they were registered before. Throws InputError where it is none,
   /// Error where another process has it open.
-  /// `on_scan` hears of each scan that is merged, those merged again while opening too, in the thread that does it.
-  using OnScan = std::function<void(const ScanRecord&, const ObjectModel&)>;
+  /// `on_scan` hears of the model after each scan, those merged again while opening too, in the thread that merges;
+  /// next() and status() know of the scan by then.
+  using OnScan = std::function<void(const SessionModel&)>;
   explicit Session(
-      const std::filesystem::path& folder, OnScan on_scan = [](const ScanRecord&, const ObjectModel&) {});
+      const std::filesystem::path& folder, OnScan on_scan = [](const SessionModel&) {});
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
   [[nodiscard]] const ScanPlanningOptions& options() const { return folder_.options(); }
@@ -51,6 +54,7 @@ class Session {
   /// valid, Error where it could not be written; then it is not part of the session.
   int store(SessionScan scan);
   /// Registers and merges the stored scans up to this number, unless another thread does. Returns the record of it.
+  /// Throws Error where it was left out.
   ScanRecord integrate(int number);
   /// Both.
   ScanRecord add(SessionScan scan) { return integrate(store(std::move(scan))); }
@@ -75,24 +79,30 @@ class Session {
   };
 
   void replay();
+  [[nodiscard]] std::optional<Waiting> next_waiting(int up_to);
   void integrate_one(const Waiting& waiting, const std::optional<Located>& known);
+  void store_located(int number, const Located& found);
+  void leave_out(int number, const std::string& why);
+  void merge_again();
+  void publish();
   void change_skipped(int candidate, const std::optional<std::string>& reason);
   [[nodiscard]] std::shared_ptr<const SessionState> state() const;
 
-  // Locked in this order: the model; the plan that was made last; the folder and the scans that wait to be merged; and,
-  // for moments only, what everybody looks at.
-  std::mutex merging_, planning_, storing_;
+  // Locked in this order: the files that finish() writes; the model; the plan that was made last; the folder and the
+  // scans that wait to be merged; and, for moments only, what everybody looks at.
+  std::mutex finishing_, merging_, planning_, storing_;
   mutable std::mutex looking_;
 
   SessionFolder folder_;
   OnScan on_scan_;
   std::deque<Waiting> waiting_;
-  SessionModel model_;
+  std::unique_ptr<SessionModel> model_;
+  bool model_is_whole_ = true;  // no merging broke off in the middle of a scan
   std::optional<SessionPlan> plan_;
   std::map<int, std::string> skipped_of_plan_;
 
   std::shared_ptr<const SessionState> state_;
-  std::map<int, std::string> skipped_;
+  std::map<int, std::string> skipped_, left_out_;
   std::size_t stored_ = 0;
   std::vector<std::string> warnings_;
 };

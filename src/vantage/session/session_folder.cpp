@@ -39,6 +39,8 @@ void create_folders(const fs::path& path) {
 
 }  // namespace
 
+bool SessionFolder::is_session(const fs::path& path) { return fs::exists(path / data_folder / options_file); }
+
 void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& options) {
   options.validate();
   require(
@@ -54,12 +56,19 @@ void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& opti
   write_file_atomically(data / options_file, "# vantage session, format 1\n" + options_as_yaml(option_fields(copy)));
 }
 
-SessionFolder::SessionFolder(const fs::path& path) : path_(path), data_(path / data_folder) {
-  require(fs::exists(data_ / options_file), path.string(), ": is no session; make one with `vantage session new`");
+ScanPlanningOptions SessionFolder::options_of(const fs::path& path) {
+  const fs::path file = path / data_folder / options_file;
+  require(fs::exists(file), path.string(), ": is no session; make one with `vantage session new`");
+  ScanPlanningOptions options;
+  set_options_from_yaml(option_fields(options), read_file(file), file.string());
+  options.validate();
+  require(options.scene.box.has_value(), file.string(), ": has no box");
+  return options;
+}
+
+SessionFolder::SessionFolder(const fs::path& path)
+    : path_(path), data_(path / data_folder), options_(options_of(path)) {
   lock_.emplace(data_, in_use);
-  set_options_from_yaml(option_fields(options_), read_file(data_ / options_file), (data_ / options_file).string());
-  options_.validate();
-  require(options_.scene.box.has_value(), (data_ / options_file).string(), ": has no box");
   list_files();
   read_skipped();
 }
@@ -113,7 +122,13 @@ int SessionFolder::store(const SessionScan& scan) {
 
 SessionScan SessionFolder::read(int number) const {
   const fs::path path = file(number, ".scan");
-  return parse_scan(read_sealed(path), path.string());
+  std::string bytes;
+  try {
+    bytes = read_file(path);
+  } catch (const InputError& error) {
+    throw Error(error.what());  // perhaps it may be read another time
+  }
+  return parse_scan(unsealed(bytes, path.string()), path.string());
 }
 
 void SessionFolder::set_aside(int number, const std::string& why) {

@@ -18,6 +18,10 @@ namespace vantage {
 /// returned. One process at a time.
 class SessionFolder {
  public:
+  /// True where create() made a session of the folder.
+  [[nodiscard]] static bool is_session(const std::filesystem::path& path);
+  /// The options of the session in the folder, whoever has it open. Throws InputError where it is none.
+  [[nodiscard]] static ScanPlanningOptions options_of(const std::filesystem::path& path);
   /// Makes a session of the folder, which may exist. Throws InputError where it already is one.
   static void create(const std::filesystem::path& path, const ScanPlanningOptions& options);
 
@@ -35,7 +39,7 @@ class SessionFolder {
   /// Writes a scan; it is safe on disk when this returns its number. Throws Error, for example where the disk is full;
   /// the scan is then not part of the session.
   int store(const SessionScan& scan);
-  /// Throws InputError where the file is damaged.
+  /// Throws InputError where the file is damaged, another Error where it cannot be read.
   [[nodiscard]] SessionScan read(int number) const;
   /// Renames a damaged scan, so that it is kept and no longer read.
   void set_aside(int number, const std::string& why);

@@ -7,7 +7,7 @@
 namespace vantage {
 
 /// How a session stands: `stored`, `integrated`, `merged` scans, `labels`, `mean_quality`, `distance`, `radius`,
-/// `skipped`, `dropped`, `warnings`.
+/// `skipped`, `left_out`, `dropped`, `warnings`.
 [[nodiscard]] nlohmann::ordered_json status_json(const SessionStatus& status);
 
 /// The record of a scan as in summary.json, with its `number` in the session before.

@@ -49,13 +49,17 @@ void SessionModel::note_candidate(const SessionScan& scan, const ScanRecord& rec
   }
 }
 
+double SessionModel::radius() const {
+  if (given_radius_ || numbers_.empty()) return given_radius_.value_or(0);
+  return sum_of_distances_ / static_cast<double>(numbers_.size());
+}
+
 SessionState SessionModel::state() const {
-  const auto count = static_cast<double>(numbers_.size());
   return {.map = model().map,
           .scans = model().scans,
           .numbers = numbers_,
           .current = scans_.current(),
-          .radius = given_radius_.value_or(count == 0 ? 0 : sum_of_distances_ / count),
+          .radius = radius(),
           .camera = camera_,
           .set_aside = set_aside_,
           .box_was_seen = box_was_seen_};

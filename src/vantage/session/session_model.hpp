@@ -27,6 +27,12 @@ class SessionModel {
   Located add(int number, const SessionScan& scan, const std::optional<Located>& known);
 
   [[nodiscard]] const ObjectModel& model() const { return scans_.model(); }
+  /// Of the scans in the session's folder, in the order of model().scans.
+  [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }
+  /// Of the view sphere, metres: as given, or the mean distance of the sensor so far; 0 before the first scan.
+  [[nodiscard]] double radius() const;
+  /// Of the first depth image.
+  [[nodiscard]] const std::optional<RangeCamera>& camera() const { return camera_; }
   [[nodiscard]] SessionState state() const;
 
  private:

@@ -29,6 +29,7 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
 }  // namespace
 
 void Session::finish() {
+  const std::lock_guard finishing(finishing_);
   const auto start = Clock::now();
   const SessionPlan last = next();
   const SessionState& state = *last.state;

@@ -19,7 +19,10 @@ using Json = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "scans are stored as they lie in memory");
 
 constexpr std::string_view first_word = "vantage-scan-1 ";
+constexpr double farthest = 1e6;  // metres, as for the scene
 constexpr std::size_t most_values = std::size_t{1} << 28U;
+
+bool is_near(const Vec3& point) { return point.cwiseAbs().maxCoeff() <= farthest; }
 
 Json numbers(const double* first, std::size_t count) { return std::vector<double>(first, first + count); }
 
@@ -116,6 +119,8 @@ std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 
 void SessionScan::validate() const {
   require(believed.world_from_sensor.matrix().allFinite(), "scan ", name, ": its pose has a number that is not finite");
+  require(is_near(believed.position()), "scan ", name, ": its pose is ", believed.position().norm(),
+          " m from the origin; must be within ", farthest, " m");
   (void)rigid_pose(believed.world_from_sensor.matrix(), concat("scan ", name));
   require(!candidate || *candidate >= 0, "scan ", name, ": candidate = ", candidate.value_or(0),
           ": must not be negative");
@@ -129,6 +134,8 @@ void SessionScan::validate() const {
   };
   require(finite(points.points) && finite(points.normals) && finite(points.origins) && points.axis.allFinite(), "scan ",
           name, ": has a number that is not finite");
+  const auto near = [](const std::vector<Vec3>& values) { return std::all_of(values.begin(), values.end(), is_near); };
+  require(near(points.points) && near(points.origins), "scan ", name, ": has a coordinate beyond ", farthest, " m");
   require(points.normals.empty() || points.normals.size() == points.points.size(), "scan ", name, ": has ",
           points.normals.size(), " normals for ", points.points.size(), " points");
   require(points.origins.size() == 1 || points.origins.size() == points.points.size(), "scan ", name, ": has ",

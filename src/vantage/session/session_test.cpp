@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <fstream>
+#include <new>
 #include <thread>
 
 #include "vantage/core/error.hpp"
@@ -122,6 +123,62 @@ TEST(Session, LeavesOutADamagedScanAndSaysSo) {
     ++cases;
   }
   EXPECT_EQ(cases, 3);
+}
+
+TEST(Session, GoesOnWithoutAScanWhoseMergingBreaksOff) {
+  const TestFolder folder;
+  Session::create(folder / "broken", small_options());
+  Session::create(folder / "without", small_options());
+  {
+    Session broken(folder / "broken", [](const SessionModel& model) {
+      if (model.numbers().back() == 1) throw std::bad_alloc();
+    });
+    Session without(folder / "without");
+    for (const SessionScan& scan : some_scans()) {
+      const int number = broken.store(scan);
+      if (number == 1) {
+        EXPECT_THAT(error_of([&] { (void)broken.integrate(1); }), HasSubstr("scan 1 is safe on disk"));
+        EXPECT_EQ(broken.next().state->numbers, std::vector<int>{0});
+      } else {
+        EXPECT_TRUE(broken.integrate(number).merged);
+        (void)without.add(scan);
+      }
+    }
+    const SessionStatus status = broken.status();
+    EXPECT_EQ(status.stored, 4U);
+    EXPECT_EQ(status.integrated, 3U);
+    EXPECT_THAT(status.left_out, ElementsAre(testing::Key(1)));
+    EXPECT_THAT(status.state->numbers, ElementsAre(0, 2, 3));
+    EXPECT_TRUE(same_map(status.state->map, without.status().state->map));
+  }
+  // Opened again, it is merged with the others, in its place.
+  Session again(folder / "broken");
+  EXPECT_THAT(again.status().left_out, testing::IsEmpty());
+  EXPECT_THAT(again.status().state->numbers, ElementsAre(0, 1, 2, 3));
+  Session::create(folder / "at once", small_options());
+  Session at_once(folder / "at once");
+  for (const SessionScan& scan : some_scans()) (void)at_once.add(scan);
+  EXPECT_TRUE(same_map(again.status().state->map, at_once.status().state->map));
+}
+
+TEST(Session, KeepsAScanThatCannotBeReadNowAndThen) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  for (const SessionScan& scan : some_scans()) (void)Session(folder / "s").add(scan);
+  const std::filesystem::path file = folder / "s" / "session" / "000002.scan";
+  std::filesystem::rename(file, folder / "away");
+  std::filesystem::create_directory(file);  // reads like a failing disk: an error, not other bytes
+  {
+    Session session(folder / "s");
+    EXPECT_THAT(session.status().left_out, ElementsAre(testing::Pair(2, HasSubstr("000002.scan"))));
+    EXPECT_THAT(session.status().dropped, testing::IsEmpty());
+    EXPECT_EQ(session.status().integrated, 3U);
+    EXPECT_EQ(session.store(some_scans()[0]), 4) << "a later scan is stored";
+    EXPECT_TRUE(session.integrate(4).merged);
+  }
+  std::filesystem::remove(file);
+  std::filesystem::rename(folder / "away", file);
+  EXPECT_EQ(Session(folder / "s").status().integrated, 5U);
 }
 
 TEST(Session, IsOpenOnce) {

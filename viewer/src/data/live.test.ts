@@ -88,6 +88,23 @@ describe("LiveClient", () => {
     expect(t.connections.at(-1)).toBe("live");
   });
 
+  it("takes the camera and the candidates that a session finds, and says which view is taken", async () => {
+    const t = setUp();
+    t.answers.push({ ...document(1, 5), meta: { ...whole["meta"], state: "waiting" } });
+    t.last().send("hello", { run: "a", revision: 5 });
+    await t.settle();
+    const nearer = { ...whole["candidates"], text: "nearer" };
+    t.last().send("setup", { camera: { ...whole["camera"], columns: 11 }, candidates: nearer }, 6);
+    expect(t.runs).toHaveLength(2);
+    expect(t.runs[1][1]).toBe(true);
+    const [run] = t.runs[1];
+    expect([run.camera.columns, run.candidates.text]).toEqual([11, "nearer"]);
+    t.last().send("take", { candidate: 3, pose: [0, 0, 0, 0, 0, 0, 1] }, 7);
+    t.last().send("scan", whole["scans"][1], 8);
+    expect(t.messages).toEqual(["view 3 is being taken", `scan 2: ${whole["scans"][1].verdict}`]);
+    expect(t.fetched).toEqual(["api/run"]);
+  });
+
   it("ignores what it has and reads all again after a gap", async () => {
     const t = setUp();
     t.answers.push(document(1, 5), document(3, 9));
@@ -204,6 +221,6 @@ describe("LiveClient", () => {
     t.answers.push(new Response('{"error": "not waiting for a view"}', { status: 409 }), new Response("", { status: 202 }));
     await expect(t.client.post("next")).rejects.toThrow("not waiting for a view");
     await expect(t.client.post("skip", { candidate: 3, reason: "x" })).resolves.toBeUndefined();
-    expect(t.fetched).toEqual(["api/next", "api/skip"]);
+    expect(t.fetched).toEqual(["api/session/next", "api/session/skip"]);
   });
 });

@@ -1,6 +1,6 @@
 /** Follows a running reconstruction: events of docs/report-data.md applied to a run, with catching up. */
 import { asObject, DataError } from "./packed.ts";
-import { decodeCloud, decodeMesh, decodePlan, decodeRun, decodeScan, decodeSummary, type Meta, type Run } from "./run.ts";
+import { decodeCamera, decodeCandidates, decodeCloud, decodeMesh, decodePlan, decodeRun, decodeScan, decodeSummary, type Meta, type Run } from "./run.ts";
 
 export type Connection = "connecting" | "live" | "lost" | "ended";
 
@@ -21,7 +21,7 @@ export interface LiveEnvironment {
   clearTimer: (timer: never) => void;
 }
 
-const EVENTS = ["scan", "plan", "state", "result"] as const;
+const EVENTS = ["scan", "plan", "take", "setup", "state", "result"] as const;
 const SILENCE_MS = 40_000;
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 
@@ -32,9 +32,16 @@ export function applyEvent(run: Run, event: (typeof EVENTS)[number], value: unkn
     case "scan":
       run.scans.push(decodeScan(data, run.scans.length, run.grid, run.candidates.count));
       run.next = null;
-      return "";
+      // Whoever waits for it may hear of a failure.
+      return run.meta.state === "waiting" ? `scan ${run.scans.length}: ${run.scans.at(-1)!.verdict}` : "";
     case "plan":
       run.next = decodePlan(data, run.candidates.count, "plan");
+      return "";
+    case "take":
+      return `view ${String(data["candidate"])} is being taken`;
+    case "setup":
+      run.camera = decodeCamera(data["camera"]);
+      run.candidates = decodeCandidates(data["candidates"]);
       return "";
     case "state":
       if (data["state"] !== undefined) run.meta.state = data["state"] as Meta["state"];
@@ -82,7 +89,7 @@ export class LiveClient {
 
   /** Presses a button of the session; throws Error with the server's text where it refuses. */
   async post(action: "next" | "skip" | "finish", body: object = {}): Promise<void> {
-    const answer = await this.environment.fetch(`${this.base}api/${action}`, {
+    const answer = await this.environment.fetch(`${this.base}api/session/${action}`, {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify(body),
@@ -196,7 +203,9 @@ export class LiveClient {
       return;
     }
     this.apply(kind, value, revision);
-    this.handlers.onChange(this.run);
+    // Another camera or other candidates change all that is drawn.
+    if (kind === "setup") this.handlers.onRun(this.run, true);
+    else this.handlers.onChange(this.run);
     this.settle();
   }
 

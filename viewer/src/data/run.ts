@@ -190,7 +190,7 @@ function decodeGrid(value: unknown): Grid {
   };
 }
 
-function decodeCamera(value: unknown): Camera {
+export function decodeCamera(value: unknown): Camera {
   const camera = asObject(value, "camera");
   const read = (key: keyof Camera) => number(camera[key], `camera.${key}`);
   return {
@@ -205,7 +205,7 @@ function decodeCamera(value: unknown): Camera {
   };
 }
 
-function decodeCandidates(value: unknown): Candidates {
+export function decodeCandidates(value: unknown): Candidates {
   const raw = asObject(value, "candidates");
   const poses = unpack(raw["poses"], "f32", "candidates.poses", 7);
   const count = poses.length / 7;

@@ -23,10 +23,13 @@ export function sessionBar(session: Session, press: Press): SessionBar {
   const message = h("span", { class: "message", role: "status" });
   const act = (action: "next" | "skip" | "finish", body: object = {}) => {
     setBusy(true);
+    message.textContent = "";
     press(action, body)
-      .then(() => (message.textContent = ""))
       .catch((error: Error) => (message.textContent = error.message))
-      .finally(() => setBusy(false));
+      .finally(() => {
+        setBusy(false);
+        update();
+      });
   };
   const reason = h("input", { type: "text", placeholder: "reason, e.g. out of reach", "aria-label": "why this view is skipped", maxlength: 200 });
   const chosen = () => session.run.next?.chosen ?? null;

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "vantage/io/depth_image.hpp"
+#include "vantage/io/point_cloud_file.hpp"
+#include "vantage/io/scan_folder.hpp"
+
+namespace vantage {
+
+/// What the numbers of a depth image mean by the options.
+[[nodiscard]] DepthEncoding depth_encoding(const ScanFolderOptions& options);
+
+/// The pose of the sensor where the robot says `read`: in metres, with the hand-eye offset. `hand_eye` is
+/// hand_eye_offset().
+[[nodiscard]] Pose sensor_pose(const Pose& read, const Pose& hand_eye, const ScanFolderOptions& options);
+/// The offset of the options (hand from sensor, metres), the identity where they have none. Throws InputError naming
+/// the option or the file.
+[[nodiscard]] Pose hand_eye_offset(const ScanFolderOptions& options);
+
+/// A depth image of a camera with these intrinsics from memory: PNG (16 bit) or else raw float32 of the intrinsics' own
+/// resolution. Throws InputError starting with `name`.
+[[nodiscard]] Scan scan_of_depth(std::string_view bytes, const Intrinsics& intrinsics, const ScanFolderOptions& options,
+                                 const std::string& name);
+
+/// A cloud as points in the sensor's frame, metres, with sight lines from its origin. `world_from_sensor` is the
+/// sensor's pose, for clouds whose points are in the world's frame.
+[[nodiscard]] Scan scan_of_cloud(const CloudFile& file, const Pose& world_from_sensor,
+                                 const ScanFolderOptions& options);
+
+/// The scan without what lies outside the crop box of the options by the believed pose: pixels become unknown, points
+/// are left out.
+[[nodiscard]] Scan cropped(Scan scan, const View& believed, const ScanFolderOptions& options);
+
+}  // namespace vantage

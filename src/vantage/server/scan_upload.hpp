@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string_view>
+
+#include "vantage/io/camera_file.hpp"
+#include "vantage/io/scan_folder.hpp"
+#include "vantage/session/session_scan.hpp"
+
+namespace vantage {
+
+/// What is known of scans before they come.
+struct UploadOptions {
+  ScanFolderOptions reading;
+  Pose hand_eye = Pose::Identity();      // hand from sensor, metres
+  std::optional<Intrinsics> intrinsics;  // of scans that bring none
+};
+
+/// Those of a session with these options of reading; a file with intrinsics is read where it exists. Throws InputError
+/// naming the option.
+[[nodiscard]] UploadOptions upload_options(const ScanFolderOptions& reading);
+
+/// The scan in a `multipart/form-data` body with the fields
+/// - `depth`: a depth image as docs/sessions.md says, or `cloud`: a file NAME.ply, .pcd, .xyz or .xyzn;
+/// - `pose`: sensor to world, 4x4 numbers or JSON as in NAME.pose.txt and NAME.pose.json;
+/// - `intrinsics` (of a depth image; where the options have none): as in camera-intrinsics.txt, .yaml or .json;
+/// - `name` and `candidate`, which may be missing.
+/// Throws InputError naming the field and what would be right.
+[[nodiscard]] SessionScan parse_scan_upload(std::string_view body, const UploadOptions& options);
+
+}  // namespace vantage

@@ -1,0 +1,258 @@
+#include "vantage/server/session_service.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.hpp"
+#include "vantage/io/atomic_file.hpp"
+#include "vantage/io/ranked_views.hpp"
+#include "vantage/io/report.hpp"
+#include "vantage/server/session_request.hpp"
+#include "vantage/session/session_json.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t longest_scan = std::size_t{64} << 20U;  // bytes
+constexpr int most_uploads = 16;                              // at a time
+constexpr std::size_t most_waiting = 32;                      // scans that are stored and not merged
+constexpr int default_top = 10;
+
+HttpAnswer json_answer(const Json& json, int status = 200) {
+  return {.status = status,
+          .body = std::make_shared<const std::string>(json.dump(-1, ' ', false, Json::error_handler_t::replace))};
+}
+
+std::string name_of(const std::filesystem::path& folder) {
+  return std::filesystem::absolute(folder).lexically_normal().filename().string();
+}
+
+/// The view of this candidate in the plan. Throws HttpError 409 saying why where it is not to be had now.
+const Evaluation& view_of(const Plan& plan, int candidate) {
+  const auto is_it = [&](const Evaluation& each) { return each.candidate == candidate; };
+  const auto ranked = std::find_if(plan.ranking.begin(), plan.ranking.end(), is_it);
+  if (ranked != plan.ranking.end()) return *ranked;
+  const auto fallen = std::find_if(plan.infeasible.begin(), plan.infeasible.end(), is_it);
+  throw HttpError(409, concat("candidate = ", candidate, ": cannot be taken now, ",
+                              fallen != plan.infeasible.end() ? fallen->reason : "it was not evaluated"));
+}
+
+}  // namespace
+
+SessionService::SessionService(const std::filesystem::path& folder, LiveRun& run)
+    : page_(SessionFolder::options_of(folder), name_of(folder), run) {
+  session_ = std::make_unique<Session>(folder, [this](const SessionModel& model) { was_merged(model); });
+  upload_ = upload_options(session_->options().reading);
+  integrator_ = std::thread([this] { integrate_stored(); });
+  planner_ = std::thread([this] { plan_for_page(); });
+}
+
+SessionService::~SessionService() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  stored_.notify_all();
+  plan_wanted_.notify_all();
+  integrator_.join();
+  planner_.join();
+}
+
+void SessionService::was_merged(const SessionModel& model) {
+  page_.add_scan(model);
+  const std::lock_guard lock(mutex_);
+  taken_.reset();
+  wants_plan_ = true;
+  plan_wanted_.notify_all();
+}
+
+void SessionService::want_plan() {
+  const std::lock_guard lock(mutex_);
+  wants_plan_ = true;
+  plan_wanted_.notify_all();
+}
+
+void SessionService::integrate_stored() {
+  int done = -1;
+  std::unique_lock lock(mutex_);
+  while (true) {
+    stored_.wait(lock, [&] { return ends_ || last_stored_ > done; });
+    if (ends_) return;
+    const int number = done = last_stored_;
+    lock.unlock();
+    try {
+      (void)session_->integrate(number);
+    } catch (const std::exception&) {
+      // The state of the session says it, and whoever waits for the scan is told.
+    }
+    lock.lock();
+  }
+}
+
+void SessionService::plan_for_page() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    plan_wanted_.wait(lock, [&] { return ends_ || wants_plan_; });
+    if (ends_) return;
+    wants_plan_ = false;
+    lock.unlock();
+    try {
+      page_.add_plan(session_->next());
+    } catch (const std::exception&) {
+      // Whoever asks for the next view is told.
+    }
+    lock.lock();
+  }
+}
+
+std::string SessionService::without_paths(std::string text) const {
+  const std::string path = session_->folder().string(), name = name_of(session_->folder());
+  for (std::size_t at = 0; !path.empty() && (at = text.find(path, at)) != std::string::npos; at += name.size())
+    text.replace(at, path.size(), name);
+  return text;
+}
+
+std::function<HttpAnswer(const HttpRequest&)> SessionService::handler(Handler handle) {
+  return [this, handle](const HttpRequest& request) {
+    try {
+      return (this->*handle)(request);
+    } catch (const HttpError&) {
+      throw;
+    } catch (const InputError& error) {
+      throw HttpError(400, without_paths(error.what()));
+    } catch (const std::exception& error) {
+      throw HttpError(500, without_paths(error.what()));
+    }
+  };
+}
+
+Json SessionService::status_now() {
+  SessionStatus status = session_->status();
+  for (std::string& text : status.dropped) text = without_paths(text);
+  for (std::string& text : status.warnings) text = without_paths(text);
+  for (auto& [number, text] : status.left_out) text = without_paths(text);
+  Json json = status_json(status);
+  const std::lock_guard lock(mutex_);
+  json["taken"] = taken_ ? Json{{"candidate", taken_->candidate}, {"pose", pose_json(taken_->view)}} : Json(nullptr);
+  return json;
+}
+
+HttpAnswer SessionService::status(const HttpRequest& request) {
+  require_query(request, {});
+  return json_answer(status_now());
+}
+
+int SessionService::store(SessionScan scan) {
+  const int views = session_->options().scene.views;
+  require(scan.candidate.value_or(0) < views, "candidate = ", scan.candidate.value_or(0),
+          ": must be one of the views 0 .. ", views - 1);
+  if (!scan.candidate) {
+    const std::lock_guard lock(mutex_);
+    if (taken_) scan.candidate = taken_->candidate;
+  }
+  try {
+    return session_->store(std::move(scan));
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {
+    throw HttpError(507, concat("the scan is not stored: ", without_paths(error.what())));
+  }
+}
+
+HttpAnswer SessionService::add_scan(const HttpRequest& request) {
+  require_query(request, {"wait"});
+  const bool waits = query_is_yes(request, "wait");
+  const SessionStatus status = session_->status();
+  if (status.stored >= status.integrated + status.left_out.size() + most_waiting)
+    throw HttpError(503, concat(most_waiting, " scans wait to be merged; try again later"));
+  const int number = store(parse_scan_upload(request.body, upload_));
+  {
+    const std::lock_guard lock(mutex_);
+    last_stored_ = std::max(last_stored_, number);
+  }
+  stored_.notify_all();
+  if (!waits) return json_answer({{"number", number}}, 202);
+  return json_answer(session_scan_json(number, session_->integrate(number)), 201);
+}
+
+HttpAnswer SessionService::next(const HttpRequest& request) {
+  require_query(request, {"top"});
+  const int top = query_number(request, "top", default_top);
+  const SessionPlan plan = session_->next();
+  return json_answer(ranked_views_json(plan.plan, plan.why_finished, plan.state->scans, top));
+}
+
+HttpAnswer SessionService::take(const HttpRequest& request) {
+  const auto body = body_object(request, {"candidate"});
+  const SessionPlan plan = session_->next();
+  if (!plan.plan) throw HttpError(409, plan.why_finished);
+  const int views = session_->options().scene.views;
+  const Evaluation& view =
+      body.contains("candidate") ? view_of(*plan.plan, body_candidate(body, views)) : plan.plan->best;
+  page_.add_take(view);
+  {
+    const std::lock_guard lock(mutex_);
+    taken_ = view;
+  }
+  Json json = view_json(view);
+  json["pose"] = pose_json(view.view);
+  return json_answer(json);
+}
+
+HttpAnswer SessionService::skip(const HttpRequest& request) {
+  const auto body = body_object(request, {"candidate", "reason"});
+  const int candidate = body_candidate(body, session_->options().scene.views);
+  session_->skip(candidate, body_text(body, "reason"));
+  {
+    const std::lock_guard lock(mutex_);
+    if (taken_ && taken_->candidate == candidate) taken_.reset();
+  }
+  want_plan();
+  return json_answer(status_now());
+}
+
+HttpAnswer SessionService::unskip(const HttpRequest& request) {
+  session_->unskip(body_candidate(body_object(request, {"candidate"}), session_->options().scene.views));
+  want_plan();
+  return json_answer(status_now());
+}
+
+HttpAnswer SessionService::finish(const HttpRequest& request) {
+  (void)body_object(request, {});
+  if (session_->status().integrated == 0) throw HttpError(409, "there is no scan yet; add one");
+  try {
+    session_->finish();
+    const std::string report = (session_->folder() / "report.html").string();
+    if (const auto document = document_of_page(read_file(report), report)) page_.add_result(*document);
+    return json_answer(Json::parse(read_file(session_->folder() / "summary.json")));
+  } catch (const InputError& error) {
+    throw HttpError(500, without_paths(error.what()));  // not an error of the request
+  }
+}
+
+void SessionService::add_routes(HttpServer& server) {
+  using Method = HttpRoute::Method;
+  const auto on = [&](Method method, const std::string& path, Handler handle) {
+    server.add({.method = method, .path = path, .handle = handler(handle)});
+  };
+  server.add({.method = Method::post,
+              .path = "/api/session/scans",
+              .handle = handler(&SessionService::add_scan),
+              .body_type = "multipart/form-data",
+              .max_body = longest_scan,
+              .at_once = most_uploads});
+  on(Method::get, "/api/session", &SessionService::status);
+  on(Method::get, "/api/session/next", &SessionService::next);
+  on(Method::post, "/api/session/next", &SessionService::take);
+  on(Method::post, "/api/session/skip", &SessionService::skip);
+  on(Method::post, "/api/session/unskip", &SessionService::unskip);
+  on(Method::post, "/api/session/finish", &SessionService::finish);
+  on(Method::get, "/api/session/map.nrrd", &SessionService::map_labels);
+  on(Method::get, "/api/session/map.ply", &SessionService::map_surface);
+  on(Method::get, "/api/session/model.ply", &SessionService::model);
+  on(Method::get, "/api/session/mesh.ply", &SessionService::mesh);
+}
+
+}  // namespace vantage
