@@ -54,9 +54,10 @@ void serve(const Request& request) {
 
 void add_serve(CLI::App& program) {
   auto request = std::make_shared<Request>();
-  CLI::App* command =
-      program.add_subcommand("serve", "Show a reconstruction in the browser, or give a session to robots and browsers");
-  command->add_option("folder", request->folder, "output folder of a reconstruction, or a session")->required();
+  CLI::App* command = program.add_subcommand(
+      "serve", "Show a reconstruction or experiment in the browser, or give a session to robots and browsers");
+  command->add_option("folder", request->folder, "output folder of a reconstruction or experiment, or a session")
+      ->required();
   command->add_option("--port", request->server.port, "port of the page; 0: any free one")->capture_default_str();
   add_page_server_options(*command, request->server);
   command->callback([request] { serve(*request); });

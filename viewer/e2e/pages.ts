@@ -104,6 +104,53 @@ export async function settle(page: Page): Promise<void> {
   await page.waitForFunction(() => window.vantage?.scene?.viewport.resting ?? true);
 }
 
+/** What opening a report took: milliseconds by the clock until it could be used, and of the page's own processor time. */
+export interface Opening {
+  clock: number;
+  processor: number;
+}
+
+/** Opens a report `times` times, each in a browser context of its own; the openings from the fastest to the slowest. */
+export async function timeOpening(browser: Browser, path: string, times = 5): Promise<Opening[]> {
+  const openings: Opening[] = [];
+  for (let i = 0; i < times; ++i) {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });
+    const page = await context.newPage();
+    page.setDefaultTimeout(180_000);
+    const cdp = await context.newCDPSession(page);
+    await cdp.send("Performance.enable");
+    await page.goto(`file://${path}`);
+    await page.waitForSelector("html[data-ready=run]", { state: "attached" });
+    const clock = await page.evaluate(() => performance.getEntriesByName("vantage-interactive")[0].startTime);
+    const { metrics } = await cdp.send("Performance.getMetrics");
+    openings.push({ clock, processor: 1000 * metrics.find((m) => m.name === "ThreadTime")!.value });
+    await page.locator("input.time").fill("0");
+    await page.waitForFunction(() => window.vantage!.session.store.state.step === 0);
+    await context.close();
+  }
+  return openings.sort((a, b) => a.clock - b.clock);
+}
+
+/** Turns the scene as a drag does for some seconds; gives the milliseconds between frames that reached the screen. */
+export function turnScene(page: Page, seconds: number): Promise<number[]> {
+  return page.evaluate(async (duration) => {
+    const frame = () => new Promise<number>((done) => requestAnimationFrame(done));
+    const { viewport } = window.vantage!.scene!;
+    const times: number[] = [];
+    const end = performance.now() + 1000 * duration;
+    let last = await frame();
+    while (performance.now() < end) {
+      viewport.orbit(0.04, 0);
+      const now = await frame();
+      times.push(now - last);
+      last = now;
+    }
+    return times;
+  }, seconds);
+}
+
+export const median = (values: number[]): number => [...values].sort((a, b) => a - b)[values.length >> 1];
+
 /**
  * Turns the scene until the view of candidate `index` is free, clicks it and gives what the card says: the exact
  * number behind each line. Null where the view stays hidden.

@@ -95,8 +95,20 @@ function showRun(run: Run, bar: ((session: Session) => SessionBar) | null): { se
   session.store.refresh();
   window.vantage = { session, scene, live: window.vantage?.live ?? null };
   scene?.viewport.drawFirst();
+  // The pixels are there and every control works.
+  performance.mark("vantage-interactive");
   document.documentElement.dataset["ready"] = "run";
   return { session, bar: live };
+}
+
+/** An error that nobody caught: said, so that a page that stopped following is not taken for the truth. */
+function sayWhatBroke(error: unknown): void {
+  if (document.documentElement.dataset["ready"] === undefined) return showProblem("This page cannot be shown", explain(error));
+  document.querySelector(".broken")?.remove();
+  const close = h("button", { type: "button", "aria-label": "close" }, "×");
+  const bar = h("div", { class: "broken", role: "alert" }, `Something went wrong, what you see may be incomplete. ${explain(error)}`, close);
+  close.addEventListener("click", () => bar.remove());
+  document.body.append(bar);
 }
 
 function goLive(): void {
@@ -109,6 +121,11 @@ function goLive(): void {
       onRun: (run, sameRun) => {
         if (shown) shown.session.replace(run, sameRun);
         else shown = showRun(run, (session) => sessionBar(session, (action, body) => client.post(action, body)));
+      },
+      onExperiment: (document_) => {
+        shown = null;
+        showExperiment(app, document_);
+        document.documentElement.dataset["ready"] = "experiment";
       },
       onChange: () => shown?.session.grown(),
       onConnection: (connection, problem) => {
@@ -135,6 +152,11 @@ function goLive(): void {
 }
 
 function start(): void {
+  window.addEventListener("error", (event) => {
+    // The browser's note that it resizes in two steps is no error.
+    if (!event.message.startsWith("ResizeObserver")) sayWhatBroke(event.error ?? event.message);
+  });
+  window.addEventListener("unhandledrejection", (event) => sayWhatBroke(event.reason));
   const text = document.getElementById("vantage-data")?.textContent?.trim() ?? "";
   if (text === "") {
     if (/^https?:$/.test(location.protocol)) goLive();

@@ -26,6 +26,23 @@ bool is_written(const std::filesystem::path& log) {
   return locked;
 }
 
+/// Whether an experiment keeps its runs here (experiments/run_store.hpp).
+bool is_of_experiment(const std::filesystem::path& folder) {
+  return std::filesystem::is_directory(folder / "runs") && std::filesystem::is_directory(folder / "times");
+}
+
+/// What there is to say of an experiment before its report.
+Json progress_document(std::size_t runs) {
+  return {{"format", "vantage-experiment"},
+          {"version", 1},
+          {"title", "Experiment under way"},
+          {"text",
+           {concat(runs, runs == 1 ? " run is" : " runs are", " finished."),
+            "The report is shown here when the last one is. An experiment that was ended goes on by the same command."}},
+          {"figures", Json::array()},
+          {"tables", Json::array()}};
+}
+
 }  // namespace
 
 FolderWatch::Stamp FolderWatch::stamp_of(const std::filesystem::path& path) {
@@ -36,10 +53,10 @@ FolderWatch::Stamp FolderWatch::stamp_of(const std::filesystem::path& path) {
 
 FolderWatch::FolderWatch(std::filesystem::path folder, LiveRun& run) : folder_(std::move(folder)), run_(run) {
   require(std::filesystem::is_directory(folder_), folder_.string(),
-          ": is no folder; it must be the output of a reconstruction");
+          ": is no folder; it must be the output of a reconstruction or experiment");
   const auto has = [&](std::string_view file) { return std::filesystem::exists(folder_ / file); };
-  require(has(RunLog::file_name) || has("report.html") || has("scans"), folder_.string(),
-          ": has neither report.html nor scans; it must be the output of a reconstruction");
+  require(has(RunLog::file_name) || has("report.html") || has("scans") || is_of_experiment(folder_), folder_.string(),
+          ": has neither report.html nor scans; it must be the output of a reconstruction or experiment");
   require(has(RunLog::file_name) || has("report.html") || !has("summary.json"), folder_.string(),
           ": has no report.html; reconstruct again without --no-report");
 }
@@ -49,6 +66,7 @@ void FolderWatch::look() {
     follow_log();
   } else {
     log_file_ = 0;
+    if (!report_shown_ && !std::filesystem::exists(folder_ / "report.html")) show_progress();
     show_report();
   }
 }
@@ -107,9 +125,20 @@ void FolderWatch::show_report() {
   auto document = document_of_page(read_file(path), path.string());
   require(document.has_value(), path.string(),
           ": has pictures only, no data for the page; the program that wrote it was built without npm");
-  require(document->is_object() && document->value("format", "") == "vantage-run", path.string(),
-          ": is not the report of one run; open it in a browser as it is");
+  const std::string format = document->is_object() ? document->value("format", "") : "";
+  require(format == "vantage-run" || format == "vantage-experiment", path.string(),
+          ": is the report of no run and of no experiment");
   run_.begin(std::move(*document));
+}
+
+void FolderWatch::show_progress() {
+  if (!is_of_experiment(folder_)) return;
+  std::size_t runs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "runs"))
+    if (entry.path().extension() == ".json") ++runs;
+  if (runs_shown_ == runs) return;
+  runs_shown_ = runs;
+  run_.begin(progress_document(runs));
 }
 
 }  // namespace vantage

@@ -2,16 +2,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "vantage/server/live_run.hpp"
 
 namespace vantage {
 
-/// Shows the output folder of a reconstruction: its report, or while it goes on its log (io/run_log.hpp).
+/// Shows the output folder of a reconstruction: its report, or while it goes on its log (io/run_log.hpp). Or that of an
+/// experiment: its report, or until there is one how many runs are finished.
 class FolderWatch {
  public:
-  /// Throws InputError where `folder` is no output folder of a run. `run` must outlive this.
+  /// Throws InputError where `folder` is no output folder of a run or experiment. `run` must outlive this.
   FolderWatch(std::filesystem::path folder, LiveRun& run);
 
   /// Tells `run` what is new in the folder since the last call. Throws InputError where a file is not as it must be.
@@ -29,6 +31,7 @@ class FolderWatch {
   void follow_log();
   void take_line(const std::string& line);
   void show_report();
+  void show_progress();
 
   std::filesystem::path folder_;
   LiveRun& run_;
@@ -37,6 +40,7 @@ class FolderWatch {
   bool finished_ = false;       // the run of the log has said so
   bool report_shown_ = false;
   Stamp report_;
+  std::optional<std::size_t> runs_shown_;  // of an experiment without a report
 };
 
 }  // namespace vantage

@@ -116,6 +116,27 @@ TEST_F(FolderWatchTest, OneFolderTakesOneRunAtATime) {
   EXPECT_THROW(RunLog{folder_}, Error);
 }
 
+TEST_F(FolderWatchTest, CountsTheRunsOfAnExperimentUntilItsReportIsThere) {
+  std::filesystem::remove(folder_ / "scans");
+  std::filesystem::create_directories(folder_ / "runs");
+  std::filesystem::create_directories(folder_ / "times");
+  write("runs/a-1.json", "{}");
+  FolderWatch watch(folder_, run_);
+  watch.look();
+  EXPECT_EQ(shown()["format"], "vantage-experiment");
+  EXPECT_EQ(shown()["text"][0], "1 run is finished.");
+  write("runs/b-2.json", "{}");
+  write("runs/c-3.json.new", "{");
+  watch.look();
+  EXPECT_EQ(shown()["text"][0], "2 runs are finished.");
+  write_report({{"format", "vantage-experiment"}, {"version", 1}, {"title", "table 1"}});
+  watch.look();
+  EXPECT_EQ(shown()["title"], "table 1");
+  write("runs/d-4.json", "{}");
+  watch.look();
+  EXPECT_EQ(shown()["title"], "table 1");
+}
+
 TEST_F(FolderWatchTest, SaysWhatIsWrongWithAFolder) {
   EXPECT_THROW(FolderWatch(folder_ / "none", run_), InputError);
   std::filesystem::remove(folder_ / "scans");

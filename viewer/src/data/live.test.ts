@@ -32,7 +32,9 @@ function setUp() {
   const opened: FakeEvents[] = [];
   const connections: Connection[] = [];
   const runs: [Run, boolean][] = [];
+  const experiments: Record<string, unknown>[] = [];
   const messages: string[] = [];
+  const problems: string[] = [];
   let changes = 0;
   const answers: unknown[] = [];
   const fetched: string[] = [];
@@ -40,7 +42,11 @@ function setUp() {
     {
       onRun: (run, same) => runs.push([run, same]),
       onChange: () => ++changes,
-      onConnection: (connection) => connections.push(connection),
+      onExperiment: (document) => experiments.push(document),
+      onConnection: (connection, problem) => {
+        connections.push(connection);
+        problems.push(problem);
+      },
       onMessage: (text) => messages.push(text),
     },
     {
@@ -62,7 +68,7 @@ function setUp() {
   client.start();
   const last = () => opened.at(-1)!;
   const settle = () => vi.advanceTimersByTimeAsync(1);
-  return { client, opened, connections, runs, messages, answers, fetched, last, settle, changes: () => changes };
+  return { client, opened, connections, problems, runs, experiments, messages, answers, fetched, last, settle, changes: () => changes };
 }
 
 beforeEach(() => void vi.useFakeTimers());
@@ -202,6 +208,54 @@ describe("LiveClient", () => {
     t.last().send("hello", { run: "a", revision: 6 });
     await t.settle();
     expect(t.runs.at(-1)![0].scans).toHaveLength(2);
+  });
+
+  it("shows an experiment, and the next one that the server begins", async () => {
+    const t = setUp();
+    const experiment = (title: string) => ({ format: "vantage-experiment", version: 1, title, revision: 0 });
+    t.answers.push(experiment("under way"), experiment("table 1"));
+    t.last().send("hello", { run: "a", revision: 0 });
+    t.last().send("hello", { run: "b", revision: 0 }); // while the first is still read
+    await t.settle();
+    expect(t.experiments.map((e) => e["title"])).toEqual(["under way", "table 1"]);
+    expect(t.connections.at(-1)).toBe("ended");
+    expect(t.fetched).toEqual(["api/run", "api/run"]);
+  });
+
+  it.each([
+    [new Response('{"error": "there is no scan yet"}', { status: 503 }), "there is no scan yet"],
+    [new Response("<html>", { status: 502, statusText: "Bad Gateway" }), "the server answers 502 Bad Gateway"],
+    [new Response("<html>"), "/api/run: is not JSON"],
+    [new Response("[]"), "/api/run: must be an object"],
+    [new Response('{"format": "vantage-run", "version": "1"}'), 'version: is "1", must be a number'],
+    [new TypeError("Failed to fetch"), "Failed to fetch"],
+  ])("says what is wrong with what the server sent, and tries again (%#)", async (answer, problem) => {
+    const t = setUp();
+    t.answers.push(answer, document(1, 5));
+    t.last().send("hello", { run: "a", revision: 5 });
+    await t.settle();
+    expect([t.connections.at(-1), t.problems.at(-1)]).toEqual(["lost", problem]);
+    await vi.advanceTimersByTimeAsync(500);
+    t.last().send("hello", { run: "a", revision: 5 });
+    await t.settle();
+    expect(t.runs).toHaveLength(1);
+    expect(t.connections.at(-1)).toBe("live");
+  });
+
+  it("reads the run anew where an event is not as documented", async () => {
+    for (const [kind, data] of [["scan", "{"], ["scan", '{"scan": 7}'], ["state", '{"state": "asleep"}'], ["plan", "[]"], ["result", '{"cloud": 3}']]) {
+      const t = setUp();
+      t.answers.push(document(1, 5), document(2, 6));
+      t.last().send("hello", { run: "a", revision: 5 });
+      await t.settle();
+      t.last().send(kind, data, 6);
+      expect(t.connections.at(-1)).toBe("lost");
+      await vi.advanceTimersByTimeAsync(500);
+      t.last().send("hello", { run: "a", revision: 6 });
+      await t.settle();
+      expect(t.runs.at(-1)![0].scans).toHaveLength(2);
+      expect(t.connections.at(-1)).toBe("live");
+    } // prettier-ignore
   });
 
   it("tries again where the run cannot be read", async () => {

@@ -1,12 +1,16 @@
 /** Follows a running reconstruction: events of docs/report-data.md applied to a run, with catching up. */
 import { asObject, DataError } from "./packed.ts";
-import { decodeCamera, decodeCandidates, decodeCloud, decodeMesh, decodePlan, decodeRun, decodeScan, decodeSummary, type Meta, type Run } from "./run.ts";
+import {
+  decodeCamera, decodeCandidates, decodeCloud, decodeMesh, decodePlan, decodeRun, decodeScan, decodeState, decodeSummary, type Run,
+} from "./run.ts"; // prettier-ignore
 
 export type Connection = "connecting" | "live" | "lost" | "ended";
 
 export interface LiveHandlers {
   /** The whole run was read; `sameRun` false where it is another one than before. */
   onRun: (run: Run, sameRun: boolean) => void;
+  /** The server shows an experiment instead: its document, which no events change. */
+  onExperiment: (document: Record<string, unknown>) => void;
   /** The run grew in place. */
   onChange: (run: Run) => void;
   onConnection: (connection: Connection, problem: string) => void;
@@ -44,7 +48,7 @@ export function applyEvent(run: Run, event: (typeof EVENTS)[number], value: unkn
       run.candidates = decodeCandidates(data["candidates"]);
       return "";
     case "state":
-      if (data["state"] !== undefined) run.meta.state = data["state"] as Meta["state"];
+      if (data["state"] !== undefined) run.meta.state = decodeState(data["state"], "event state: state");
       if (data["stop_reason"] !== undefined) run.stop_reason = String(data["stop_reason"]);
       if (data["summary"] !== undefined) run.summary = decodeSummary(data["summary"]);
       return data["message"] === undefined ? "" : String(data["message"]);
@@ -56,6 +60,17 @@ export function applyEvent(run: Run, event: (typeof EVENTS)[number], value: unkn
   }
 }
 
+/** Why the server refused, in its own words where it has some. */
+async function refusal(answer: Response): Promise<string> {
+  try {
+    const { error } = JSON.parse(await answer.text()) as { error?: unknown };
+    if (typeof error === "string") return error;
+  } catch {
+    // not JSON: the status says it
+  }
+  return `the server answers ${answer.status} ${answer.statusText}`.trim();
+}
+
 export class LiveClient {
   private run: Run | null = null;
   private runName: string | null = null;
@@ -64,6 +79,8 @@ export class LiveClient {
   private retry: unknown = null;
   private failures = 0;
   private reading: Promise<void> | null = null;
+  /** While one run is read the server has begun another one. */
+  private another = false;
   private waiting: [string, unknown, number][] = [];
   private closed = false;
 
@@ -95,14 +112,7 @@ export class LiveClient {
       body: JSON.stringify(body),
     });
     if (answer.ok) return;
-    const text = await answer.text();
-    let problem = `${answer.status} ${answer.statusText}`;
-    try {
-      problem = String((JSON.parse(text) as { error?: unknown }).error ?? problem);
-    } catch {
-      // not JSON: the status says it
-    }
-    throw new Error(problem);
+    throw new Error(await refusal(answer));
   }
 
   private drop(): void {
@@ -165,24 +175,38 @@ export class LiveClient {
   }
 
   private read(sameRun: boolean): void {
-    if (this.reading) return;
+    if (this.reading) {
+      this.another ||= !sameRun;
+      return;
+    }
+    this.another = false;
     this.reading = this.readRun(sameRun)
       .catch((error: unknown) => {
         this.lose(error instanceof Error ? error.message : String(error));
       })
       .finally(() => {
         this.reading = null;
+        if (this.another && this.events) this.read(false);
       });
   }
 
   private async readRun(sameRun: boolean): Promise<void> {
     const answer = await this.environment.fetch(`${this.base}api/run`, { cache: "no-store" });
-    if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
+    if (!answer.ok) throw new Error(await refusal(answer));
     let document: unknown;
     try {
       document = await answer.json();
     } catch {
       throw new DataError("/api/run: is not JSON");
+    }
+    const { format } = asObject(document, "/api/run");
+    if (format === "vantage-experiment") {
+      this.run = null;
+      this.waiting = [];
+      this.handlers.onExperiment(document as Record<string, unknown>);
+      this.failures = 0;
+      this.handlers.onConnection("ended", "");
+      return;
     }
     this.run = decodeRun(document);
     const waiting = this.waiting.filter(([, , revision]) => revision > this.run!.revision);

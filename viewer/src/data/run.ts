@@ -160,6 +160,9 @@ function oneOf<T extends string>(value: unknown, choices: readonly T[], field: s
   return value as T;
 }
 
+export const decodeState = (value: unknown, field: string): Meta["state"] =>
+  oneOf(value, ["running", "waiting", "finished"] as const, field);
+
 function decodeMeta(value: unknown): Meta {
   const meta = asObject(value, "meta");
   return {
@@ -168,10 +171,13 @@ function decodeMeta(value: unknown): Meta {
     program: text(meta["program"], "meta.program", ""),
     options: Object.entries(asObject(meta["options"] ?? {}, "meta.options")).map(([k, v]) => [k, String(v)]),
     seed: numberOrNull(meta["seed"], "meta.seed"),
-    state: oneOf(meta["state"], ["running", "waiting", "finished"] as const, "meta.state"),
+    state: decodeState(meta["state"], "meta.state"),
     simulated: meta["simulated"] === true,
   };
 }
+
+/** More voxels in the enclosure than this are no scene that a browser could hold. */
+const MAX_VOXELS = 2 ** 28;
 
 function decodeGrid(value: unknown): Grid {
   const grid = asObject(value, "grid");
@@ -181,6 +187,7 @@ function decodeGrid(value: unknown): Grid {
   const min = box.slice(0, 3) as Vec3;
   const size = [0, 1, 2].map((a) => box[3 + a] - box[a] + 1) as Vec3;
   if (size.some((n) => !Number.isInteger(n) || n < 1)) fail("grid.enclosure", `is [${box}], must be x0 y0 z0 x1 y1 z1`);
+  if (size[0] * size[1] * size[2] > MAX_VOXELS) fail("grid.enclosure", `has ${size.join(" x ")} voxels, too many to show`);
   return {
     origin: numbers<Vec3>(grid["origin"], 3, "grid.origin"),
     voxel,

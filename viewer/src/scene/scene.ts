@@ -3,14 +3,14 @@ import * as THREE from "three";
 import { NEVER, type MapState } from "../data/history.ts";
 import { OCCUPIED, type Plan, type Pose, type Vec3 } from "../data/run.ts";
 import { LABEL_COLORS, normalColor, parseHex, scanColor, shareColor, viridis, type Rgb } from "../model/colors.ts";
-import { coarsen, pickVoxel } from "../model/faces.ts";
+import { pickVoxel } from "../model/faces.ts";
 import type { Session } from "../model/session.ts";
 import type { State } from "../model/state.ts";
 import { theme } from "../ui/theme.ts";
 import { CameraLayer } from "./cameras.ts";
 import { disposeTree } from "./geometry.ts";
 import { buildFrustum, buildGhost, buildNormals, buildPath, buildSlice, buildSurface, CloudLayer } from "./overlays.ts";
-import { SLOW_FRAME_MS, Viewport } from "./viewport.ts";
+import { Viewport } from "./viewport.ts";
 import { VoxelLayer } from "./voxels.ts";
 
 const MODES = { hide: 0, fade: 1, show: 2 } as const;
@@ -29,9 +29,6 @@ export class SceneView {
   private built: Partial<Record<"path" | "frustum" | "normals" | "slice" | "mesh" | "truth", THREE.Object3D>> = {};
   private readonly root = new THREE.Group();
   private readonly marker: THREE.LineSegments;
-  private coarse: VoxelLayer | null = null;
-  /** While the scene moves, more faces than this are drawn coarsely: so many were slow before. */
-  private tooManyFaces = Infinity;
   private seen = new Uint8Array(0);
   private runId: unknown = null;
 
@@ -42,9 +39,6 @@ export class SceneView {
     this.viewport = new Viewport(element);
     this.viewport.scene.add(this.root);
     this.viewport.beforeFrame = () => this.chooseDetail();
-    this.viewport.afterMovingFrame = (ms) => {
-      if (ms > SLOW_FRAME_MS && this.voxels.group.visible) this.tooManyFaces = Math.min(this.tooManyFaces, this.faceCount);
-    };
     const cube = new THREE.EdgesGeometry(new THREE.BoxGeometry(1.04, 1.04, 1.04));
     this.marker = new THREE.LineSegments(cube, new THREE.LineBasicMaterial({ depthTest: false }));
     this.marker.renderOrder = 10;
@@ -73,7 +67,6 @@ export class SceneView {
     for (const child of [...this.root.children]) if (child !== this.marker) disposeTree(child);
     this.built = {};
     this.cloud = null;
-    this.coarse = null;
     const { grid, candidates, camera } = this.run;
     this.voxels = new VoxelLayer(grid);
     this.cameras = new CameraLayer(candidates, camera, this.glyphSize());
@@ -111,33 +104,12 @@ export class SceneView {
     return lines;
   }
 
-  /** While the scene moves on a slow machine, blocks of eight voxels stand for all. */
   private chooseDetail(): void {
-    const coarsely = this.viewport.moving && this.faceCount > MIN_FACES && this.faceCount >= this.tooManyFaces;
-    if (coarsely && !this.coarse) this.buildCoarse();
-    this.voxels.group.visible = !coarsely;
-    this.cameras.showOutlines(!coarsely);
-    if (this.coarse) this.coarse.group.visible = coarsely;
-    (coarsely ? this.coarse! : this.voxels).cull(this.viewport.camera);
-  }
-
-  private buildCoarse(): void {
-    const { state } = this.session.store;
-    const { grid, scans } = this.run;
-    if (scans.length === 0) return;
-    const map = this.session.map(state.step);
-    const mode = state.labels.map((m) => MODES[m]);
-    const { labels, voxelOf } = coarsen(map.labels, grid.enclosureSize, mode, this.cut(state));
-    const color = this.colorOf(state, map);
-    this.coarse = new VoxelLayer(grid, 2);
-    this.coarse.build(labels, [...mode, 0], () => false, (v) => color(voxelOf[v]));
-    this.root.add(this.coarse.group);
-  }
-
-  private dropCoarse(): void {
-    if (!this.coarse) return;
-    disposeTree(this.coarse.group);
-    this.coarse = null;
+    const { camera, rows, block } = this.viewport;
+    const quick = block > 0 && this.faceCount > MIN_FACES;
+    if (quick) this.voxels.showPoints(camera, rows, block);
+    else this.voxels.showFaces(camera);
+    this.cameras.showOutlines(!quick);
   }
 
   private update(state: State, changed: ReadonlySet<keyof State>): void {
@@ -147,7 +119,6 @@ export class SceneView {
     if (this.run.scans.length === 0) return;
     const map = this.session.map(state.step);
     if (has("step", "layers")) this.markSeen(state);
-    if (has("step", "labels", "slice", "coloring", "layers")) this.dropCoarse();
     if (has("step", "labels", "slice")) {
       this.voxels.build(map.labels, state.labels.map((m) => MODES[m]), this.cut(state), this.colorOf(state, map));
     } else if (has("coloring", "layers")) {

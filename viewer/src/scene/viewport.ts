@@ -1,6 +1,7 @@
 /** The canvas: camera, orbiting, drawing on demand, and the translation between pixels and rays. */
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { DetailChooser } from "../model/detail.ts";
 
 // Colours are the page's own, written straight to the screen.
 THREE.ColorManagement.enabled = false;
@@ -17,31 +18,23 @@ function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-/** While moving, frames slower than this are drawn with fewer pixels; at rest always with all. */
-export const SLOW_FRAME_MS = 45;
-const MIN_SCALE = 0.5;
-
 export class Viewport {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(42, 1, 0.01, 100);
   readonly controls: OrbitControls;
   /** Called before every frame. */
   beforeFrame: () => void = () => {};
-  /** Milliseconds of the last frames, for measurements. */
-  readonly frameTimes: number[] = [];
 
   private readonly renderer: THREE.WebGLRenderer;
   private readonly restRatio: number;
   private readonly movingRatio: number;
   private pending = false;
-  private scale = 1;
+  private readonly chooser = new DetailChooser();
   /** Drawn with the pixels of a moving scene; the first frame too, so that it comes soon. */
   private quick = true;
   private dragging = false;
   /** True while the reader turns the scene; then speed counts more than detail. */
   moving = false;
-  /** Called after every frame of a movement with the milliseconds it took. */
-  afterMovingFrame: (milliseconds: number) => void = () => {};
   private rest = 0;
   private cover = 0;
   private applied = "";
@@ -50,7 +43,12 @@ export class Viewport {
 
   constructor(private readonly element: HTMLElement) {
     const software = drawsInSoftware();
-    this.renderer = new THREE.WebGLRenderer({ antialias: !software, powerPreference: "high-performance" });
+    const attributes = { alpha: false, antialias: !software, depth: true, stencil: false };
+    const surface = document.createElement("canvas");
+    // Made here because three.js would ask for a transparent one, which costs the browser time in every frame.
+    const context = surface.getContext("webgl2", attributes) as WebGL2RenderingContext | null;
+    if (!context) throw new Error("no WebGL 2");
+    this.renderer = new THREE.WebGLRenderer({ canvas: surface, context, ...attributes });
     this.restRatio = software ? 2 : Math.min(2, window.devicePixelRatio);
     this.movingRatio = software ? 1 : this.restRatio;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
@@ -69,6 +67,7 @@ export class Viewport {
     this.controls.addEventListener("end", () => (this.dragging = false));
     this.controls.addEventListener("change", () => (this.dragging ? this.onMove() : this.requestFrame()));
     canvas.addEventListener("keydown", (event) => this.onKey(event));
+    canvas.addEventListener("webglcontextrestored", () => this.requestFrame());
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#707078", 2.2));
     const sun = new THREE.DirectionalLight("#ffffff", 1.6);
     sun.position.set(-0.35, -0.55, 0.75);
@@ -80,6 +79,16 @@ export class Viewport {
   /** Nothing more will be drawn until something changes. */
   get resting(): boolean {
     return !this.pending && !this.moving && !this.quick;
+  }
+
+  /** How the voxels are to be drawn: 0 as faces, else as points of so many voxels per side. */
+  get block(): number {
+    return this.moving ? this.chooser.detail.block : 0;
+  }
+
+  /** Rows of pixels that are drawn. */
+  get rows(): number {
+    return this.renderer.domElement.height;
   }
 
   get canvas(): HTMLCanvasElement {
@@ -180,14 +189,7 @@ export class Viewport {
 
   private draw(): void {
     const time = this.moving ? this.drawNow() : (this.beforeFrame(), this.renderer.render(this.scene, this.camera), 0);
-    if (!this.moving) return;
-    this.frameTimes.push(time);
-    if (this.frameTimes.length > 120) this.frameTimes.shift();
-    this.afterMovingFrame(time);
-    if (time > SLOW_FRAME_MS && this.scale > MIN_SCALE) {
-      this.scale = Math.max(MIN_SCALE, this.scale * 0.8);
-      this.applySize();
-    }
+    if (this.moving && this.chooser.frame(time)) this.applySize();
   }
 
   private onMove(): void {
@@ -195,6 +197,7 @@ export class Viewport {
     window.clearTimeout(this.rest);
     this.rest = window.setTimeout(() => {
       this.moving = this.quick = false;
+      this.chooser.rest();
       this.applySize();
       this.requestFrame();
     }, 180);
@@ -206,7 +209,7 @@ export class Viewport {
   }
 
   private applySize(): void {
-    const ratio = this.quick ? this.movingRatio * this.scale : this.restRatio;
+    const ratio = this.quick ? this.movingRatio * this.chooser.detail.pixels : this.restRatio;
     const wanted = `${this.size.width} ${this.size.height} ${ratio}`;
     if (wanted === this.applied) return;
     this.applied = wanted;

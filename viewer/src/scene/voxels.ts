@@ -1,8 +1,9 @@
 /** Voxels as faces, shaded and outlined by a small shader of their own: fast even without a graphics card. */
 import * as THREE from "three";
-import { facingCount, visibleFaces, type FaceList } from "../model/faces.ts";
+import { faceAxes, facingCount, visibleFaces, type FaceList } from "../model/faces.ts";
 import type { Grid, Vec3 } from "../data/run.ts";
-import type { Rgb } from "../model/colors.ts";
+import { lightOf, NOOK, SHADE, type VoxelColor } from "./voxel_light.ts";
+import { VoxelPoints } from "./voxel_points.ts";
 
 const vertexShader = /* glsl */ `
   attribute vec4 cell;  // lattice corner x y z, number of the corner 0..3
@@ -28,11 +29,10 @@ const fragmentShader = /* glsl */ `
 
 /** Corner k of a face in direction d as offsets in the voxel; counter-clockwise seen from outside as 0 1 3 2. */
 const CORNERS: Vec3[][] = [0, 1, 2, 3, 4, 5].map((direction) => {
-  const [axis, positive] = [direction >> 1, direction & 1];
-  const [u, w] = positive ? [(axis + 1) % 3, (axis + 2) % 3] : [(axis + 2) % 3, (axis + 1) % 3];
+  const [u, w] = faceAxes(direction);
   return [0, 1, 2, 3].map((k) => {
     const offset: Vec3 = [0, 0, 0];
-    offset[axis] = positive;
+    offset[direction >> 1] = direction & 1;
     offset[u] = k & 1;
     offset[w] = k >> 1;
     return offset;
@@ -41,12 +41,6 @@ const CORNERS: Vec3[][] = [0, 1, 2, 3, 4, 5].map((direction) => {
 
 /** Opacity of faded voxels, of 255. */
 const FADED = 84;
-
-/** How light a face is: as if the sun stood to the upper left in front. */
-const SHADE = [0.74, 0.86, 0.9, 0.7, 0.6, 1];
-
-/** Colour of a voxel, 0 to 255 per channel, and its own shading where the surface's normal is known. */
-export type VoxelColor = (voxel: number) => { rgb: Rgb; shade: number | null };
 
 class FaceMesh {
   readonly mesh: THREE.Mesh;
@@ -83,13 +77,14 @@ class FaceMesh {
 
   paint(color: VoxelColor, alpha: number): void {
     if (!this.list) return;
-    const { voxels, direction } = this.list;
+    const { voxels, direction, free } = this.list;
     const tints = new Uint8Array(16 * voxels.length);
     for (let f = 0; f < voxels.length; ++f) {
       const { rgb, shade } = color(voxels[f]);
-      const light = shade === null ? SHADE[direction] : 0.75 * shade + 0.25 * SHADE[direction];
+      const light = lightOf(shade, SHADE[direction]);
       for (let k = 0; k < 4; ++k) {
-        for (let c = 0; c < 3; ++c) tints[16 * f + 4 * k + c] = rgb[c] * light;
+        const here = light * NOOK[(free[f] >> (2 * k)) & 3];
+        for (let c = 0; c < 3; ++c) tints[16 * f + 4 * k + c] = rgb[c] * here;
         tints[16 * f + 4 * k + 3] = alpha;
       }
     }
@@ -115,21 +110,25 @@ export class VoxelLayer {
   faceCount = 0;
   private readonly solid: FaceMesh[];
   private readonly faded: FaceMesh[];
+  private readonly faces = new THREE.Group();
+  private lists: { solid: FaceList[]; faded: FaceList[] } = { solid: [], faded: [] };
+  private points: VoxelPoints[] = [];
   private index = new THREE.BufferAttribute(new Uint32Array(0), 1);
+  private color: VoxelColor = () => ({ rgb: [0, 0, 0], shade: null });
   private readonly size: Vec3;
 
-  /** `scale`: how many of the grid's voxels one of the layer's is wide. */
-  constructor(grid: Grid, scale = 1) {
-    this.size = grid.enclosureSize.map((n) => Math.ceil(n / scale)) as Vec3;
+  constructor(private readonly grid: Grid) {
+    this.size = grid.enclosureSize;
     const min = grid.enclosureMin.map((i, a) => grid.origin[a] + i * grid.voxel);
     this.group.position.fromArray(min);
-    this.group.scale.setScalar(grid.voxel * scale);
+    this.group.scale.setScalar(grid.voxel);
     const opaque = new THREE.ShaderMaterial({ vertexShader, fragmentShader });
     const glass = new THREE.ShaderMaterial({ vertexShader, fragmentShader, transparent: true, depthWrite: false });
     this.solid = SHADE.map(() => new FaceMesh(opaque));
     this.faded = SHADE.map(() => new FaceMesh(glass));
-    for (const face of [...this.solid, ...this.faded]) this.group.add(face.mesh);
+    for (const face of [...this.solid, ...this.faded]) this.faces.add(face.mesh);
     for (const face of this.faded) face.mesh.renderOrder = 5;
+    this.group.add(this.faces);
   }
 
   /** Rebuilds the faces after labels, modes or the cut changed. */
@@ -139,27 +138,59 @@ export class VoxelLayer {
     cut: (x: number, y: number, z: number) => boolean,
     color: VoxelColor,
   ): void {
-    const solid = visibleFaces(labels, this.size, mode, 2, cut);
-    const faded = visibleFaces(labels, this.size, mode, 1, cut);
+    const { solid, faded } = visibleFaces(labels, this.size, mode, cut);
+    this.lists = { solid, faded };
     this.faceCount = [...solid, ...faded].reduce((n, list) => n + list.voxels.length, 0);
     this.growIndex(Math.max(...[...solid, ...faded].map((list) => list.voxels.length)));
     solid.forEach((list, d) => this.solid[d].fill(list, this.size, color, 255, this.index));
     faded.forEach((list, d) => this.faded[d].fill(list, this.size, color, FADED, this.index));
+    this.color = color;
+    this.dropPoints();
   }
 
   /** Colours anew, same faces. */
   paint(color: VoxelColor): void {
     for (const mesh of this.solid) mesh.paint(color, 255);
     for (const mesh of this.faded) mesh.paint(color, FADED);
+    this.color = color;
+    this.dropPoints();
   }
 
-  cull(camera: THREE.Camera): void {
+  /** Faces as they are, without those that look away from the camera. */
+  showFaces(camera: THREE.Camera): void {
+    this.faces.visible = true;
+    for (const { points } of this.points) points.visible = false;
     const position = this.group.worldToLocal(camera.position.clone());
     for (const mesh of [...this.solid, ...this.faded]) mesh.cull(position);
   }
 
+  /** A point for every block of voxels, `block` per side, that has a face; `height`: rows of pixels of the picture. */
+  showPoints(camera: THREE.PerspectiveCamera, height: number, block: number): void {
+    this.faces.visible = false;
+    if (this.points[0]?.block !== block) {
+      this.dropPoints();
+      const { solid, faded } = this.lists;
+      this.points = [
+        new VoxelPoints(solid, this.size, block, this.color, 255),
+        new VoxelPoints(faded, this.size, block, this.color, FADED),
+      ];
+      this.group.add(...this.points.map((p) => p.points));
+    }
+    const position = this.group.worldToLocal(camera.position.clone());
+    const pixels = (this.grid.voxel * height) / (2 * Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)));
+    for (const p of this.points) {
+      p.points.visible = true;
+      p.aim(position, pixels);
+    }
+  }
+
   dispose(): void {
     for (const mesh of [...this.solid, ...this.faded]) mesh.dispose();
+    this.dropPoints();
+  }
+
+  private dropPoints(): void {
+    for (const p of this.points.splice(0)) p.dispose();
   }
 
   private growIndex(faces: number): void {

@@ -1,6 +1,7 @@
 /** The curves over the scans. */
 import { LABELS, type Run } from "../data/run.ts";
 import { LABEL_COLORS } from "../model/colors.ts";
+import { labelCounts } from "../model/labels.ts";
 import type { Session } from "../model/session.ts";
 import { lineChart, type Chart, type Series } from "./charts.ts";
 import { h } from "./dom.ts";
@@ -8,23 +9,6 @@ import { theme } from "./theme.ts";
 
 const INK = { a: "#0072b2", b: "#d55e00", c: "#009e73", d: "#cc79a7", e: "#e69f00", f: "#56b4e9" };
 const STAGE_COLORS = Object.values(INK);
-
-/** Label counts after every scan, from the labels themselves. */
-export function labelCounts(run: Run): number[][] {
-  const [x, y, z] = run.grid.enclosureSize;
-  const counts = [x * y * z, 0, 0, 0, 0];
-  const labels = new Uint8Array(x * y * z);
-  return run.scans.map((scan) => {
-    for (let v = 0; v < labels.length; ++v) {
-      const change = scan.labels[v];
-      if (change === 0) continue;
-      --counts[labels[v]];
-      labels[v] = change - 1;
-      ++counts[labels[v]];
-    }
-    return counts.slice();
-  });
-}
 
 function milliseconds(run: Run): Series[] {
   const stages = [...new Set(run.scans.flatMap((s) => s.milliseconds.map(([name]) => name)))];

@@ -53,8 +53,7 @@ export function sessionBar(session: Session, press: Press): SessionBar {
   session.store.subscribe(update);
   update();
   const setConnection = (connection: Connection, problem: string) => {
-    state.textContent = CONNECTION_TEXT[connection];
-    state.title = problem;
+    state.textContent = problem ? `${CONNECTION_TEXT[connection]} (${problem})` : CONNECTION_TEXT[connection];
     state.dataset["state"] = connection;
   };
   setConnection("connecting", "");
