@@ -131,22 +131,22 @@ export async function timeOpening(browser: Browser, path: string, times = 5): Pr
   return openings.sort((a, b) => a.clock - b.clock);
 }
 
-/** Turns the scene as a drag does for some seconds; gives the milliseconds between frames that reached the screen. */
-export function turnScene(page: Page, seconds: number): Promise<number[]> {
-  return page.evaluate(async (duration) => {
+/** Turns the scene as a drag does, until `until` says so; gives the milliseconds between frames that reached the screen. */
+export function turnScene(page: Page, until: { seconds: number } | { frames: number }): Promise<number[]> {
+  return page.evaluate(async (end) => {
     const frame = () => new Promise<number>((done) => requestAnimationFrame(done));
     const { viewport } = window.vantage!.scene!;
     const times: number[] = [];
-    const end = performance.now() + 1000 * duration;
+    const start = performance.now();
     let last = await frame();
-    while (performance.now() < end) {
+    while ("frames" in end ? times.length < end.frames : performance.now() < start + 1000 * end.seconds) {
       viewport.orbit(0.04, 0);
       const now = await frame();
       times.push(now - last);
       last = now;
     }
     return times;
-  }, seconds);
+  }, until);
 }
 
 export const median = (values: number[]): number => [...values].sort((a, b) => a - b)[values.length >> 1];

@@ -98,16 +98,17 @@ describe("a report from disk, without a network", () => {
       expect(await page.textContent("#curves .chart:first-child .legend")).toContain(String(coverage));
     }
     expect(blues.at(-1)!).toBeGreaterThan(1.5 * blues[0]);
-    await page.click("button.play");
-    const seen = new Set<number>();
     const last = run["scans"].length - 1;
-    await page.waitForFunction(() => window.vantage!.session.store.state.step === 0);
-    while (await page.evaluate(() => window.vantage!.session.store.state.playing)) {
-      seen.add(await step(page));
-      await page.waitForTimeout(150);
-    }
-    seen.add(await step(page));
-    expect([...seen].sort()).toEqual(Array.from({ length: last + 1 }, (_, i) => i));
+    const played = page.evaluate(() => new Promise<number[]>((done) => {
+      const { store } = window.vantage!.session;
+      const seen: number[] = [];
+      store.subscribe((state, changed) => {
+        if (changed.has("step")) seen.push(state.step);
+        if (changed.has("playing") && !state.playing) done(seen);
+      });
+    })); // prettier-ignore
+    await page.click("button.play");
+    expect(await played).toEqual(Array.from({ length: last + 1 }, (_, i) => i));
     await expectQuiet(watched);
   });
 
@@ -266,12 +267,10 @@ it("turns a large scene smoothly without a graphics card", async () => {
   const watched = await openReport(browser, reportOf("big.html", big), { width: 1280, height: 720 });
   const { page } = watched;
   await settle(page);
-  await turnScene(page, 1); // finds out how fast it is
-  const times = await turnScene(page, 3);
+  const times = await turnScene(page, { frames: 30 });
   const { occupied } = big.scans[0];
   console.log(`${occupied} occupied voxels, 2000 views: ${(1000 / median(times)).toFixed(0)} frames/s, load ${loadavg()[0]}`);
   expect(occupied).toBeGreaterThan(100_000);
-  expect(times.length).toBeGreaterThan(5);
   // How fast it is depends on what else the machine does; `npm run fps` measures it.
   await settle(page);
   // At rest everything is drawn in full again.
