@@ -31,6 +31,8 @@ export class SceneView {
   private readonly marker: THREE.LineSegments;
   private seen = new Uint8Array(0);
   private runId: unknown = null;
+  /** Whether there were candidates to make room for. */
+  private framedFor = "";
 
   constructor(
     element: HTMLElement,
@@ -71,8 +73,10 @@ export class SceneView {
     this.voxels = new VoxelLayer(grid);
     this.cameras = new CameraLayer(candidates, camera, this.glyphSize());
     this.root.add(this.voxels.group, this.cameras.group, this.marker, this.enclosureBox());
-    if (this.runId !== this.session.runId) {
+    const framedFor = `${candidates.count > 0}`;
+    if (this.runId !== this.session.runId || this.framedFor !== framedFor) {
       this.runId = this.session.runId;
+      this.framedFor = framedFor;
       const target = new THREE.Vector3(...this.enclosureCenter());
       const reach = Math.max(...this.cameras.positions.map((p) => p.distanceTo(target)), this.enclosureRadius());
       this.viewport.frame(target, Math.min(reach * 1.04, 6 * this.enclosureRadius()));
@@ -114,7 +118,7 @@ export class SceneView {
 
   private update(state: State, changed: ReadonlySet<keyof State>): void {
     const has = (...keys: (keyof State)[]) => keys.some((k) => changed.has(k));
-    if (this.session.takeNewRun()) this.setRun();
+    if (this.session.takeNewRun() || this.cameras.candidates !== this.run.candidates) this.setRun();
     this.viewport.setBackground(theme.color("scene"));
     if (this.run.scans.length === 0) return;
     const map = this.session.map(state.step);
