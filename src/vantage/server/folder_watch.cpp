@@ -33,14 +33,15 @@ bool is_of_experiment(const std::filesystem::path& folder) {
 
 /// What there is to say of an experiment before its report.
 Json progress_document(std::size_t runs) {
-  return {{"format", "vantage-experiment"},
-          {"version", 1},
-          {"title", "Experiment under way"},
-          {"text",
-           {concat(runs, runs == 1 ? " run is" : " runs are", " finished."),
-            "The report is shown here when the last one is. An experiment that was ended goes on by the same command."}},
-          {"figures", Json::array()},
-          {"tables", Json::array()}};
+  return {
+      {"format", "vantage-experiment"},
+      {"version", 1},
+      {"title", "Experiment under way"},
+      {"text",
+       {concat(runs, runs == 1 ? " run is" : " runs are", " finished."),
+        "The report is shown here when the last one is. An experiment that was ended goes on by the same command."}},
+      {"figures", Json::array()},
+      {"tables", Json::array()}};
 }
 
 }  // namespace
