@@ -3,7 +3,7 @@ import { spawn, type ChildProcess } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
-const PROGRAM = process.env["VANTAGE"] ?? fileURLToPath(new URL("../../build/release/vantage", import.meta.url));
+export const PROGRAM = process.env["VANTAGE"] ?? fileURLToPath(new URL("../../build/release/vantage", import.meta.url));
 
 export class Program {
   /** What it said on standard error. */
