@@ -39,9 +39,11 @@ PointCloud evenly_picked(const PointCloud& cloud, std::size_t most) {
 }  // namespace
 
 IcpLevel::IcpLevel(const PointCloud& model, const PointCloud& scan, double cell, std::size_t most_scan_surfels)
-    : model_(make_surfels(model, cell)),
-      model_index_(model_.cloud.points),
-      scan_(evenly_picked(make_surfels(scan, cell).cloud, most_scan_surfels)) {}
+    : model_(make_surfels(model, cell)), model_index_(model_.cloud.points) {
+  const Surfels of_scan = make_surfels(scan, cell);
+  scan_ = evenly_picked(of_scan.cloud, most_scan_surfels);
+  flat_share_ = of_scan.flat_share();
+}
 
 std::vector<PlanePair> IcpLevel::pairs(const Pose& world_from_sensor, double max_distance) const {
   constexpr std::size_t block_size = 128;
@@ -71,6 +73,9 @@ IcpResult align(const IcpLevel& level, const Pose& start, const Pose& believed, 
   constexpr std::size_t least_pairs = 10;
   constexpr int settled = 5;  // iterations after which no direction changes sides, lest the pose swing for ever
   const double still = 1e-3 * level.cell();  // a step below this is no progress
+  // Noise hands points from surfel to surfel and back for ever; steps so far below a surfel's size are nothing but
+  // that.
+  const double restless = 0.05 * level.cell();
   IcpResult result;
   result.world_from_sensor = start;
   for (int i = 0; i < settings.max_iterations; ++i) {
@@ -88,10 +93,8 @@ IcpResult align(const IcpLevel& level, const Pose& start, const Pose& believed, 
     if (moved.norm() > settings.farthest) {
       result.world_from_sensor = frame.motion(moved * (settings.farthest / moved.norm())) * believed;
     }
-    if (step.norm() < still) {
-      result.converged = true;
-      break;
-    }
+    result.converged = step.norm() < (i + 1 < settings.max_iterations ? still : restless);
+    if (result.converged) break;
   }
   return result;
 }
@@ -133,8 +136,9 @@ Agreement agreement(const IcpLevel& level, const Pose& world_from_sensor) {
     squares += pair.residual() * pair.residual();
     agreement.score += 1 - share * share;
   }
+  // Only flat surfels can lie on the model: noise and edges make others, however much of the surface is shared.
   const auto surfels = static_cast<double>(std::max<std::size_t>(1, level.scan().size()));
-  agreement.overlap = on_model / surfels;
+  agreement.overlap = std::min(1.0, on_model / std::max(1.0, surfels * level.flat_share()));
   agreement.residual = on_model > 0 ? std::sqrt(squares / on_model) : 0;
   agreement.score /= surfels;
   return agreement;

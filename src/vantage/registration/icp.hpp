@@ -19,6 +19,8 @@ class IcpLevel {
   [[nodiscard]] double cell() const { return model_.cell; }
   [[nodiscard]] const Surfels& model() const { return model_; }
   [[nodiscard]] const PointCloud& scan() const { return scan_; }
+  /// Share of the scan's surfels that are flat.
+  [[nodiscard]] double flat_share() const { return flat_share_; }
 
   /// Each scan surfel with the model surfel nearest to it, where that is flat, nearer than `max_distance`, faces the
   /// same way and lies opposite: seen from it, the scan surfel is at most one and a half cells off its normal. (Beyond
@@ -29,6 +31,7 @@ class IcpLevel {
   Surfels model_;
   PointIndex model_index_;
   PointCloud scan_;
+  double flat_share_ = 1;
 };
 
 struct IcpSettings {

@@ -112,8 +112,7 @@ class Search {
       if (distance(best.result, other.result) > 4 * cells_.back()) rival = std::max(rival, other.score);
     }
     const double rival_share = best.score > 0 ? rival / best.score : 1;
-    best.result =
-        align(levels_.back(), best.result.world_from_sensor, believed_, scale_.frame, settings(levels_.back(), 3));
+    best.result = align(levels_.back(), best.result.world_from_sensor, believed_, scale_.frame, last_settings());
     return judge(best.result, rival_share);
   }
 
@@ -131,6 +130,12 @@ class Search {
       settings.cost = believed_errors().cwiseAbs2().cwiseInverse();
     }
     return settings;
+  }
+
+  [[nodiscard]] IcpSettings last_settings() const {
+    IcpSettings last = settings(levels_.back(), 3);
+    if (options_.trust > 0) last.trust = options_.trust_at_last.value_or(options_.trust);
+    return last;
   }
 
   /// The believed pose and, unless it is trusted, poses shifted from it by half the search radius along the axes.
@@ -290,6 +295,8 @@ void RegistrationOptions::validate() const {
   require(!largest_open_misfit || *largest_open_misfit > 0, "largest_open_misfit = ", largest_open_misfit.value_or(0),
           " m: must be positive");
   require(trust >= 0 && trust < 1, "trust = ", trust, ": must be in [0, 1)");
+  require(!trust_at_last || (*trust_at_last >= 0 && *trust_at_last < 1), "trust_at_last = ", trust_at_last.value_or(0),
+          ": must be in [0, 1)");
   require(orientation_error > 0, "orientation_error = ", orientation_error, " rad: must be positive");
   require(ambiguity > 0 && ambiguity <= 1, "ambiguity = ", ambiguity, ": must be in (0, 1]");
 }

@@ -40,6 +40,9 @@ struct RegistrationOptions {
   /// Resistance to moving away from the believed pose, in the unit of least_resistance. 0: the surfaces alone decide,
   /// which suits clean scans; with noise and outliers a little trust keeps weakly held directions from following them.
   double trust = 0;
+  /// The same on the finest level, where the pose is already near: `trust` where not given. Trust pulls what the
+  /// surface holds weakly towards the believed pose by a part of its error.
+  std::optional<double> trust_at_last;
   /// Largest share of the scan's points that may lie in space which earlier range images show to be empty, or of the
   /// model's points in space which this scan's range image shows to be empty.
   double largest_share_in_free_space = 0.01;
@@ -65,7 +68,7 @@ enum class Verdict {
 /// What registration found. Only a scan with the verdict `registered` may be merged.
 struct Registration {
   Pose world_from_sensor = Pose::Identity();
-  double overlap = 0;   // share of the scan's surface that lies on the model, 0..1
+  double overlap = 0;   // share of the scan's flat surfels that lie on the model, 0..1
   double residual = 0;  // RMS distance of the overlap to the model's planes, metres
   Verdict verdict = Verdict::not_converged;
   int undetermined_directions = 0;  // motions that the geometry leaves open; they stay at the believed pose
