@@ -154,9 +154,20 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   }
 
   const VisibilityEvaluator visibility(map);
-  const ViewEvaluation problem{map,      visibility,    camera_,          candidates_, map.grid().length,
-                               travel(), current,       options_.factors, utility_,    moves.normalised_costs(feasible),
-                               scanned_, options_.seed, feasible};
+  const ViewEvaluation problem{map,
+                               visibility,
+                               camera_,
+                               candidates_,
+                               map.grid().length,
+                               travel(),
+                               current,
+                               options_.factors,
+                               utility_,
+                               moves.normalised_costs(feasible),
+                               scanned_,
+                               options_.seed,
+                               feasible,
+                               static_cast<int>(set_aside_.size())};
   plan.feasible = feasible.size();
   plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();

@@ -21,8 +21,20 @@ std::vector<PossiblePose> poses_around(const View& commanded, const View& curren
 
 /// The same question about other views.
 ViewEvaluation asked_of(const ViewEvaluation& problem, const Candidates& views) {
-  return {problem.map,     problem.visibility, problem.camera,  views, problem.voxel_length, problem.travel,
-          problem.current, problem.options,    problem.utility, {},    problem.scanned,      problem.seed};
+  return {problem.map,
+          problem.visibility,
+          problem.camera,
+          views,
+          problem.voxel_length,
+          problem.travel,
+          problem.current,
+          problem.options,
+          problem.utility,
+          {},
+          problem.scanned,
+          problem.seed,
+          {},
+          problem.refused};
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ void ViewEvaluation::score(std::vector<Evaluation>& evaluations,
     views.push_back({each.candidate, each.view, each.resolution, ideal(each.candidate), normalised_cost(each.candidate),
                      each.seen, each.factors});
   }
-  const std::vector<double> scores = judge(utility, {map, visibility, camera, current, scanned, seed, views, deadline});
+  const std::vector<double> scores =
+      judge(utility, {map, visibility, camera, current, scanned, seed, views, deadline, refused});
   for (std::size_t i = 0; i < scores.size(); ++i) evaluations[i].score = evaluations[i].utility = scores[i];
 }
 

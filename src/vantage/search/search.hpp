@@ -61,6 +61,7 @@ struct ViewEvaluation {
   std::uint64_t seed = 1;
   /// What a utility that compares views compares with where other views than candidates are asked about.
   std::span<const int> feasible = {};
+  int refused = 0;  // as in Choice
 
   /// The ideal resolution of a candidate (eq. 14), from its distance to the center.
   [[nodiscard]] Resolution ideal(int candidate) const;

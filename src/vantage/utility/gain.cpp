@@ -136,7 +136,7 @@ MetVoxels meet(const Choice& choice, const GainOptions& options) {
 
 /// Which views overlap enough; the floor falls until there are some among those that gain anything.
 std::vector<char> overlapping(const MetVoxels& met, const std::vector<Counts>& counts, const std::vector<double>& worth,
-                              const GainOptions& options) {
+                              int refused, const GainOptions& options) {
   std::vector<double> overlap(worth.size(), 0.0);
   for (std::size_t i = 0; i < worth.size(); ++i) {
     const auto occupied = static_cast<double>(met.occupied[i]);
@@ -145,7 +145,9 @@ std::vector<char> overlapping(const MetVoxels& met, const std::vector<Counts>& c
   }
   std::vector<char> allowed(worth.size(), 0);
   constexpr double no_floor = 1e-3;
-  for (double floor = options.min_overlap;; floor = floor > no_floor ? floor * options.floor_step : 0) {
+  const double raised = options.min_overlap * std::pow(options.refusal_step, refused);
+  const double first_floor = std::max(options.min_overlap, std::min(raised, options.highest_floor));
+  for (double floor = first_floor;; floor = floor > no_floor ? floor * options.floor_step : 0) {
     bool any = false;
     for (std::size_t i = 0; i < worth.size(); ++i) {
       allowed[i] = worth[i] > 0 && overlap[i] >= floor ? 1 : 0;
@@ -173,7 +175,7 @@ std::vector<double> gain(const Choice& choice, const GainOptions& options) {
   }
   if (!(all > 0)) return scores;
 
-  const std::vector<char> allowed = overlapping(met, counts, worth, options);
+  const std::vector<char> allowed = overlapping(met, counts, worth, choice.refused, options);
   const double best = *std::max_element(worth.begin(), worth.end());
   const auto occupied = static_cast<double>(choice.map.count(Label::occupied));
   const bool is_last = all - best <= options.last_view_share * (all + occupied);
@@ -203,6 +205,8 @@ void GainOptions::validate() const {
   require(travel >= 0 && travel <= 1, "travel = ", travel, ": must be in [0, 1]");
   require(min_overlap >= 0 && min_overlap <= 1, "min-overlap = ", min_overlap, ": must be in [0, 1]");
   require(floor_step > 0 && floor_step < 1, "floor-step = ", floor_step, ": must be in (0, 1)");
+  require(refusal_step >= 1 && refusal_step <= 16, "refusal-step = ", refusal_step, ": must be in [1, 16]");
+  require(highest_floor >= 0 && highest_floor <= 1, "highest-floor = ", highest_floor, ": must be in [0, 1]");
   require(last_view_share >= 0 && last_view_share <= 1, "last-view-share = ", last_view_share, ": must be in [0, 1]");
 }
 

@@ -18,6 +18,8 @@ struct GainOptions {
   double travel = 0.05;           // price of the longest way
   double min_overlap = 0.15;      // least share of occupied voxels among those that are met
   double floor_step = 0.8;        // lowers the floor where no view reaches it
+  double refusal_step = 2;        // raises it with every scan that could not be merged, up to
+  double highest_floor = 0.6;     // this
   double last_view_share = 0.01;  // one view may leave this much: then the view after it does not matter
 
   /// Throws InputError naming the field.

@@ -69,7 +69,8 @@ std::vector<double> gain_naively(const Choice& choice, const GainOptions& option
   }
   const double whole = worth(all);
   std::vector<double> scores(sets.size(), 0.0);
-  double floor = options.min_overlap;
+  double floor = std::max(options.min_overlap,
+                          std::min(options.highest_floor, options.min_overlap * std::pow(2.0, choice.refused)));
   std::vector<std::size_t> allowed;
   while (whole > 0 && allowed.empty()) {
     for (std::size_t v = 0; v < sets.size(); ++v) {
@@ -111,9 +112,10 @@ TEST(Gain, GivesWhatItsDefinitionGivesOnRandomScenes) {
       view.travel = random.uniform();
       views.push_back(view);
     }
-    const Choice choice{map, visibility, camera, views[0].view, {}, 1, views};
+    Choice choice{map, visibility, camera, views[0].view, {}, 1, views};
+    choice.refused = random.index(4);
     GainOptions options;
-    options.min_overlap = random.uniform(0, 0.9);
+    options.min_overlap = random.uniform() < 0.5 ? random.uniform(0, 0.2) : random.uniform(0, 0.9);
     options.last_view_share = random.uniform() < 0.5 ? 0.01 : 0.2;
     const std::vector<double> expected = gain_naively(choice, options);
     const std::vector<double> scores = judge(gain_utility(options), choice);

@@ -39,6 +39,8 @@ struct Choice {
   /// Where there is one, a utility may give `not_judged` to views that it begins with after it; the best ones are
   /// expected first in `views`.
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
+  /// Views whose scans could not be merged since the last one that could: what is known may be too little to go by.
+  int refused = 0;
 };
 
 /// The score of a view that there was no time for.
