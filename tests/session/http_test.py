@@ -2,164 +2,17 @@
 http_test.py VANTAGE OPENAPI SOURCE SHARED_DATA SECONDS_OF_LOAD [unittest options]"""
 import http.client
 import json
-import pathlib
 import random
 import re
-import resource
-import shutil
-import signal
 import statistics
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 
-import jsonschema
-import yaml
-
-TOKEN = "0123456789-of-the-test"
-VANTAGE, OPENAPI, SOURCE, DATA = (pathlib.Path(sys.argv.pop(1)) for _ in range(4))
-LOAD = float(sys.argv.pop(1))
-SMALL = ["--voxel", "0.08", "--scene", "51,51,51", "--enclosure", "13,13,13", "--candidates", "sphere:20:2"]
-BOX = "--box=0,0,0,1.04,1.04,1.04"
-BOUNDARY = "a-boundary-that-is-in-no-scan"
-
-
-def succeed(*arguments):
-    result = subprocess.run([VANTAGE, *map(str, arguments)], capture_output=True, text=True, timeout=1200)
-    if result.returncode != 0:
-        raise AssertionError(f"{arguments}: exit {result.returncode}: {result.stderr}")
-    return result.stdout
-
-
-def form(parts):
-    """A multipart body of {name: bytes or text or (file name, bytes)}."""
-    body = b""
-    for name, value in parts.items():
-        file_name, data = value if isinstance(value, tuple) else (None, value)
-        data = data.encode() if isinstance(data, str) else data
-        file = f'; filename="{file_name}"' if file_name else ""
-        body += f'--{BOUNDARY}\r\nContent-Disposition: form-data; name="{name}"{file}\r\n\r\n'.encode() + data + b"\r\n"
-    return body + f"--{BOUNDARY}--\r\n".encode()
-
-
-def frame_parts(frame, intrinsics, poses=None):
-    name = frame.name.removesuffix(".depth.png")
-    return {"depth": ("depth.png", frame.read_bytes()), "name": name, "intrinsics": intrinsics.read_text(),
-            "pose": ((poses or frame.parent) / (name + ".pose.txt")).read_text()}
-
-
-class Server:
-    """`vantage serve` on a session, ended with the block."""
-
-    def __init__(self, folder, *options, file_size=None):
-        """`file_size`: bytes that a file may have, as on a disk that is almost full."""
-        def limit():
-            if file_size is not None:
-                resource.setrlimit(resource.RLIMIT_FSIZE, (file_size, file_size))
-
-        # Python ignores SIGXFSZ, and without restore_signals so does the program.
-        self.process = subprocess.Popen([VANTAGE, "serve", folder, "--port", "0", *options], stderr=subprocess.PIPE,
-                                        text=True, preexec_fn=limit, restore_signals=False)
-        for line in self.process.stderr:
-            match = re.search(r"http://\S+:(\d+)/(?:\?token=(\S+))?", line)
-            if match:
-                self.port, self.token = int(match[1]), match[2]
-                break
-        else:
-            raise AssertionError("the server did not start")
-        threading.Thread(target=self.process.stderr.read, daemon=True).start()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait(timeout=60)
-        self.process.stderr.close()
-
-    def ask(self, method, path, body=None, headers=None):
-        """(status, content type, body)"""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=300)
-        try:
-            connection.request(method, path, body, headers or {})
-            answer = connection.getresponse()
-            return answer.status, answer.getheader("Content-Type"), answer.read()
-        finally:
-            connection.close()
-
-    def add(self, parts, query="", headers=None):
-        return self.ask("POST", "/api/session/scans" + query, form(parts),
-                        {"Content-Type": "multipart/form-data; boundary=" + BOUNDARY, **(headers or {})})
-
-    def get_json(self, path):
-        status, _, body = self.ask("GET", path)
-        if status != 200:
-            raise AssertionError(f"{path}: {status} {body[:200]}")
-        return json.loads(body)
-
-
-class OpenApi:
-    """docs/openapi.yaml, and what of it was seen."""
-
-    def __init__(self):
-        self.document = yaml.safe_load(OPENAPI.read_text())
-        self.seen = set()
-
-    def operations(self):
-        return {(path, method) for path, methods in self.document["paths"].items() for method in methods}
-
-    def answers(self):
-        return {(path, method, status) for path, method in self.operations()
-                for status in self.document["paths"][path][method]["responses"]}
-
-    def resolved(self, part):
-        while "$ref" in part:
-            target = self.document
-            for key in part["$ref"].removeprefix("#/").split("/"):
-                target = target[key]
-            part = target
-        return part
-
-    def check(self, test, method, path, status, content_type, body):
-        """That this answer is described as it is."""
-        path = path.split("?")[0]
-        responses = self.document["paths"][path][method.lower()]["responses"]
-        test.assertIn(str(status), responses, f"{method} {path}: {body[:300]}")
-        content = self.resolved(responses[str(status)])["content"]
-        test.assertIn(content_type, content, f"{method} {path}: {status}")
-        if content_type == "application/json":
-            # The references of a schema point into the whole document.
-            schema = {"components": self.document["components"], "allOf": [content[content_type]["schema"]]}
-            problems = [f"{list(each.absolute_path)}: {each.message}"
-                        for each in jsonschema.Draft202012Validator(schema).iter_errors(json.loads(body))]
-            test.assertEqual(problems, [], f"{method} {path}: {status}")
-        self.seen.add((path, method.lower(), str(status)))
-
-
-class OverHttp(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.scratch.name)
-        succeed("reconstruct", "mug", "--out", cls.root / "mug", "--no-report", "--quiet", "--max-views", "4",
-                "--camera", "58x45:640x480", *SMALL)
-        cls.scans = cls.root / "mug" / "scans"
-        cls.frames = sorted(cls.scans.glob("*.depth.png"))
-        cls.intrinsics = cls.scans / "camera-intrinsics.txt"
-        cls.parts = [frame_parts(frame, cls.intrinsics) for frame in cls.frames]
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
-
-    def new(self, name, *options):
-        folder = self.root / name
-        shutil.rmtree(folder, ignore_errors=True)
-        succeed("session", "new", folder, BOX, "--config", self.scans / "scans.yaml", *(options or ["--views", "20"]))
-        return folder
+from served import (BOUNDARY, BOX, DATA, LOAD, SOURCE, TOKEN, VANTAGE, OpenApi, OverHttp, Server, form, frame_parts,
+                    succeed)
 
 
 class Description(OverHttp):
@@ -285,6 +138,33 @@ class Safety(OverHttp):
             self.assertEqual(server.add(self.parts[0], headers={"Authorization": "Bearer " + TOKEN})[0], 201)
             self.assertEqual(server.ask("GET", "/api/session?token=" + TOKEN)[0], 200)
 
+    def test_a_backlog_is_limited(self):
+        """Scans sent faster than they are merged: 503 says so, and what was acknowledged is merged in the end."""
+        with Server(self.new("backlog", "--voxel", "0.02", "--views", "20")) as server:
+            answers, mutex = [], threading.Lock()
+
+            def send():
+                for turn in range(100):
+                    status, _, body = server.add(self.parts[turn % len(self.parts)], "?wait=no")
+                    with mutex:
+                        answers.append((status, json.loads(body)))
+                        if any(each != 202 for each, _ in answers):
+                            return
+
+            threads = [threading.Thread(target=send) for _ in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            refused = [body for status, body in answers if status != 202]
+            self.assertIn({"error": "32 scans wait to be merged; try again later"}, refused)
+            numbers = [body["number"] for status, body in answers if status == 202]
+            self.assertEqual(sorted(numbers), list(range(len(numbers))))
+            end = time.monotonic() + 200
+            while server.get_json("/api/session")["integrated"] < len(numbers) and time.monotonic() < end:
+                time.sleep(0.2)
+            self.assertEqual(server.get_json("/api/session")["integrated"], len(numbers))
+
     def test_the_command_line_is_told_that_the_session_is_served(self):
         folder = self.new("served")
         with Server(folder):
@@ -318,32 +198,47 @@ class Kills(OverHttp):
 
 
 class SameAsPlan(OverHttp):
+    """Frames one by one over HTTP, by `session add`, and all at once by `plan`: the same map and next view to the last bit."""
+
     def check(self, name, scans, frames, intrinsics, options, poses=None):
-        folder = self.root / name
-        succeed("session", "new", folder, *options)
-        with Server(folder) as server:
+        over_http, by_hand, at_once = (self.root / (name + ending) for ending in [".http", ".session", ".plan"])
+        planned = json.loads(succeed("plan", scans, *options, "--json", "--out", at_once))
+        self.assertIsNotNone(planned["next"])
+        succeed("session", "new", by_hand, *options)
+        succeed("session", "add", by_hand, *frames)
+        self.assertEqual(json.loads(succeed("session", "next", by_hand, "--json")), planned)
+        succeed("session", "finish", by_hand)
+        succeed("session", "new", over_http, *options)
+        with Server(over_http) as server:
             for frame in frames:
                 status, _, body = server.add(frame_parts(frame, intrinsics, poses))
                 self.assertEqual(status, 201, body)
-            planned = json.loads(succeed("plan", scans, *options, "--json", "--out", self.root / (name + ".plan")))
             self.assertEqual(server.get_json("/api/session/next"), planned)
-            for file in ["map.nrrd", "map.ply", "model.ply"]:
-                self.assertEqual(server.ask("GET", "/api/session/" + file)[2],
-                                 (self.root / (name + ".plan") / file).read_bytes(), file)
+            for file in ["map.nrrd", "map.ply", "model.ply", "mesh.ply"]:
+                expected = (at_once / file).read_bytes()
+                self.assertEqual(server.ask("GET", "/api/session/" + file)[2], expected, file)
+                self.assertEqual((by_hand / file).read_bytes(), expected, file)
+
+    def real(self, name):
+        scans = DATA / "scans" / name
+        if not scans.is_dir():
+            self.skipTest(f"needs the real scans in {scans}")
+        if LOAD < 10:
+            self.skipTest("takes minutes")
+        return scans, sorted(scans.glob("*.depth.png")), scans / "camera-intrinsics.txt"
 
     def test_mug(self):
-        self.check("mug.http", self.scans, self.frames, self.intrinsics, [BOX, "--config", self.scans / "scans.yaml"])
+        self.check("mug", self.scans, self.frames, self.intrinsics, [BOX, "--views", "20", "--config", self.scans / "scans.yaml"])
 
-    def test_real_scans(self):
-        if LOAD < 60 or not DATA.is_dir():
-            self.skipTest("slow, and needs the real scans")
-        tray, shelf = DATA / "scans" / "ur5_tray", DATA / "scans" / "apc_shelf"
-        self.check("tray", tray, sorted(tray.glob("*.depth.png")), tray / "camera-intrinsics.txt",
-                   ["--box=-0.11,-0.29,0.09,0.36,0.24,0.12", "--depth-range", "0.25,1.5",
-                    "--workspace=-1,-1.2,0.1,1,0.6,1.5"])
-        self.check("shelf", shelf, sorted(shelf.glob("*.depth.png")), shelf / "camera-intrinsics.txt",
+    def test_ur5_tray(self):
+        self.check("tray", *self.real("ur5_tray"),
+                   ["--box=-0.11,-0.29,0.09,0.36,0.24,0.12", "--depth-range", "0.25,1.5", "--workspace=-1,-1.2,0.1,1,0.6,1.5"])
+
+    def test_apc_shelf(self):
+        scans, *rest = self.real("apc_shelf")
+        self.check("shelf", scans, *rest,
                    ["--box=1.683,-0.003,1.142,0.425,0.327,0.27", "--depth-range", "0.15,1.2", "--depth-scale", "0.0001",
-                    "--poses", "pose_robot"], shelf / "pose_robot")
+                    "--poses", "pose_robot"], scans / "pose_robot")
 
 
 class Load(OverHttp):
