@@ -139,8 +139,13 @@ Json table_json(const ExperimentTable& table) {
     rows.push_back(std::move(cells));
     estimates.push_back(std::move(numbers_of_row));
   }
-  return {{"name", table.name}, {"title", table.title},           {"columns", columns},    {"rows", rows},
-          {"note", table.note}, {"paper_columns", paper_columns}, {"estimates", estimates}};
+  Json measures = Json::array();
+  for (const ExperimentTable::Column& column : table.columns)
+    measures.push_back({{"title", column.title},
+                        {"decimals", column.decimals},
+                        {"difference", column.kind == ExperimentTable::Column::Kind::difference}});
+  return {{"name", table.name}, {"title", table.title},           {"columns", columns},     {"rows", rows},
+          {"note", table.note}, {"paper_columns", paper_columns}, {"estimates", estimates}, {"measures", measures}};
 }
 
 Json chart_json(const ExperimentFigure& figure, const LineChart& chart) {

@@ -25,6 +25,26 @@ export interface Table {
   paper_columns: number[];
   verdict_column: number | null;
   note: string;
+  /** Its numbers with their spread, rows by measures; null where a cell holds none. Null for plain tables. */
+  estimates: (Estimate | null)[][] | null;
+  measures: Measure[];
+}
+
+/** A column of estimates. A difference is read with its sign and interval. */
+export interface Measure {
+  title: string;
+  decimals: number;
+  difference: boolean;
+}
+
+export interface Estimate {
+  mean: number;
+  sd: number | null;
+  runs: number;
+  low: number | null;
+  high: number | null;
+  paper: number | null;
+  in_band: boolean | null;
 }
 
 export interface Experiment {
@@ -93,6 +113,39 @@ function decodeFigure(value: unknown, field: string): Figure {
   };
 }
 
+function decodeMeasure(value: unknown, field: string): Measure {
+  const raw = asObject(value, field);
+  const decimals = raw["decimals"];
+  if (!Number.isInteger(decimals) || (decimals as number) < 0 || (decimals as number) > 12) fail(`${field}.decimals`, "must be 0 to 12");
+  return { title: text(raw["title"], `${field}.title`), decimals: decimals as number, difference: raw["difference"] === true };
+}
+
+function decodeEstimate(value: unknown, field: string): Estimate | null {
+  if (value === null) return null;
+  const raw = asObject(value, field);
+  const number = (key: string) => (typeof raw[key] === "number" ? raw[key] : null);
+  const mean = number("mean");
+  if (mean === null) return null;
+  const band = raw["in_band"];
+  return {
+    mean, sd: number("sd"), runs: number("runs") ?? 1, low: number("low"), high: number("high"), paper: number("paper"),
+    in_band: typeof band === "boolean" ? band : null,
+  }; // prettier-ignore
+}
+
+function decodeEstimates(raw: Record<string, unknown>, rows: number, field: string): Pick<Table, "estimates" | "measures"> {
+  if (raw["measures"] === undefined) return { estimates: null, measures: [] };
+  const measures = list(raw["measures"], `${field}.measures`).map((m, i) => decodeMeasure(m, `${field}.measures[${i}]`));
+  const estimates = list(raw["estimates"], `${field}.estimates`).map((row, r) => {
+    const at = `${field}.estimates[${r}]`;
+    const cells = list(row, at).map((cell, k) => decodeEstimate(cell, `${at}[${k}]`));
+    if (cells.length !== measures.length) fail(at, `has ${cells.length} cells for ${measures.length} measures`);
+    return cells;
+  });
+  if (estimates.length !== rows) fail(`${field}.estimates`, `has ${estimates.length} rows, must have ${rows}`);
+  return { estimates, measures };
+}
+
 function decodeTable(value: unknown, field: string): Table {
   const raw = asObject(value, field);
   const columns = list(raw["columns"], `${field}.columns`).map((c, i) => text(c, `${field}.columns[${i}]`));
@@ -108,6 +161,7 @@ function decodeTable(value: unknown, field: string): Table {
     paper_columns: raw["paper_columns"] ? numbers(raw["paper_columns"], `${field}.paper_columns`) : [],
     verdict_column: typeof raw["verdict_column"] === "number" ? raw["verdict_column"] : null,
     note: typeof raw["note"] === "string" ? raw["note"] : "",
+    ...decodeEstimates(raw, rows.length, field),
   };
 }
 

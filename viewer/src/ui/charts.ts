@@ -59,8 +59,9 @@ export function lineChart(series: Series[], options: ChartOptions, onPick: (inde
   const xs = options.x ?? Array.from({ length: count }, (_, i) => i + 1);
   const [low, high] = range(series, options);
   const [first, last] = [Math.min(...xs), Math.max(...xs)];
+  const bottom = M.bottom + (options.xLabel ? 18 : 0);
   const px = (x: number) => M.left + ((width - M.left - M.right) * (x - first)) / Math.max(1e-9, last - first);
-  const py = (y: number) => height - M.bottom - ((height - M.top - M.bottom) * (y - low)) / (high - low);
+  const py = (y: number) => height - bottom - ((height - M.top - bottom) * (y - low)) / (high - low);
   const parts: SVGElement[] = [];
   for (const y of ticks(low, high, Math.max(3, Math.round(height / 50)))) {
     parts.push(svg("line", { x1: M.left, x2: width - M.right, y1: py(y), y2: py(y), class: "grid" }));
@@ -68,11 +69,12 @@ export function lineChart(series: Series[], options: ChartOptions, onPick: (inde
   }
   const every = xs.every(Number.isInteger);
   for (const x of ticks(first, last, Math.min(8, Math.max(1, count - 1))).filter((t) => !every || Number.isInteger(t))) {
-    parts.push(svg("text", { x: px(x), y: height - 5, class: "tick", "text-anchor": "middle" }, tickText(x)));
+    parts.push(svg("text", { x: px(x), y: height - bottom + 13, class: "tick", "text-anchor": "middle" }, tickText(x)));
   }
+  if (options.xLabel) parts.push(svg("text", { x: (M.left + width - M.right) / 2, y: height - 4, class: "axis", "text-anchor": "middle" }, options.xLabel));
   const below = new Array<number>(count).fill(0);
   for (const s of series) parts.push(...drawSeries(s, options, xs, px, py, below));
-  const cursor = svg("line", { y1: M.top, y2: height - M.bottom, class: "cursor", visibility: "hidden" });
+  const cursor = svg("line", { y1: M.top, y2: height - bottom, class: "cursor", visibility: "hidden" });
   const dots = series.map((s) => svg("circle", { r: 3.5, fill: s.color, class: "dot", visibility: "hidden" }));
   const picture = svg(
     "svg",
@@ -143,10 +145,12 @@ function drawSeries(
     return [svg("polygon", { points: [...upper, ...lower.reverse()].join(" "), fill: s.color, class: "area" })];
   }
   if (s.low && s.high) {
-    const upper = s.high.map((v, i) => (v === null ? null : `${px(xs[i])},${py(v)}`));
-    const lower = s.low.map((v, i) => (v === null ? null : `${px(xs[i])},${py(v)}`)).reverse();
+    // A band may reach beyond what can be, for example beyond 100 %.
+    const inside = (v: number) => Math.min(options.max ?? v, Math.max(options.min ?? v, v));
+    const upper = s.high.map((v, i) => (v === null ? null : `${px(xs[i])},${py(inside(v))}`));
+    const lower = s.low.map((v, i) => (v === null ? null : `${px(xs[i])},${py(inside(v))}`)).reverse();
     const points = [...upper, ...lower].filter((p) => p !== null).join(" ");
-    parts.push(svg("polygon", { points, fill: s.color, opacity: 0.16 }));
+    parts.push(svg("polygon", { points, fill: s.color, class: "band" }));
   }
   if (s.marks) {
     s.values.forEach((v, i) => {

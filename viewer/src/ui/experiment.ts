@@ -1,5 +1,6 @@
 /** The page of an experiment: figures and tables against the paper's values. */
 import { decodeExperiment, type Cell, type Experiment, type Figure, type Table } from "../data/experiment.ts";
+import { readable, type ReadableTable } from "../model/estimates.ts";
 import { lineChart, type Series } from "./charts.ts";
 import { h } from "./dom.ts";
 import { significant } from "./format.ts";
@@ -42,9 +43,10 @@ function figure(f: Figure): HTMLElement {
       high: spread(s.x, s.high),
     };
   });
-  const chart = lineChart(series, { title: f.title, unit: f.y_label, x, xLabel: f.x_label, min: f.y_min, max: f.y_max, width: 560, height: 260, format: (v) => significant(v, 4) }, (i) => chart.mark(i));
-  chart.mark(x.length - 1);
-  return h("div", { class: "card" }, chart.element, h("p", { class: "note x-label" }, f.x_label), caption(f));
+  const shares = /%/.test(f.y_label) && f.series.every((one) => one.y.every((y) => y === null || (y >= 0 && y <= 100)));
+  const options = { title: f.title, unit: f.y_label, x, xLabel: f.x_label, min: f.y_min, max: f.y_max ?? (shares ? 100 : undefined), width: 560, height: 300, format: (v: number) => significant(v, 4) };
+  const chart = lineChart(series, options, (i) => chart.mark(i));
+  return h("div", { class: "card" }, chart.element, caption(f));
 }
 
 /** Without the columns that hold nothing, for example the paper's where it has no such number. */
@@ -59,26 +61,38 @@ function withoutEmpty(t: Table): Table {
   };
 }
 
-function table(full: Table): HTMLElement {
-  const t = withoutEmpty(full);
-  const text = (cell: Cell) => (typeof cell === "number" ? significant(cell, 4) : cell === null ? "–" : cell);
-  const kind = (column: number, cell: Cell) => {
-    if (t.paper_columns.includes(column)) return "paper";
-    if (t.verdict_column !== column) return typeof cell === "number" ? null : "text";
-    return /^(ok|yes|pass|in band)/i.test(String(cell)) ? "text good" : "text bad";
+const VERDICT = { good: "inside of the band that counts as reproducing the paper", bad: "outside of that band" };
+
+function tableOf(t: Table): ReadableTable {
+  const joined = readable(t);
+  if (joined) return joined;
+  const full = withoutEmpty(t);
+  const kind = (i: number) => (full.paper_columns.includes(i) ? "paper" : full.rows.some((row) => typeof row[i] === "number") ? "number" : "text");
+  const verdict = (cell: Cell) => (/^(ok|yes|pass|in band)/i.test(String(cell)) ? "good" : "bad");
+  return {
+    columns: full.columns.map((title, i) => ({ title, kind: kind(i) })),
+    rows: full.rows.map((row) =>
+      row.map((cell, i) => ({
+        text: typeof cell === "number" ? significant(cell, 4) : cell === null ? "–" : cell,
+        kind: full.verdict_column === i ? verdict(cell) : kind(i),
+      })),
+    ),
   };
+}
+
+function table(t: Table): HTMLElement {
+  const { columns, rows } = tableOf(t);
+  const head = columns.map((c) => h("th", { scope: "col", class: c.kind }, c.title));
+  const body = rows.map((row) =>
+    h("tr", {}, ...row.map((c, i) => (i === 0 ? h("th", { scope: "row", class: "text" }, c.text) : h("td", { class: c.kind, title: VERDICT[c.kind as keyof typeof VERDICT] ?? null }, c.text)))),
+  );
   return h(
     "section",
     { class: "card" },
     h("h2", {}, t.title),
+    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t.title }, h("table", {}, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...body))),
     t.note ? h("p", { class: "note" }, t.note) : null,
-    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t.title },
-      h("table", {},
-        h("thead", {}, h("tr", {}, ...t.columns.map((c, i) => h("th", { scope: "col", class: kind(i, 0) === "paper" ? "paper" : null }, c)))),
-        h("tbody", {}, ...t.rows.map((row) => h("tr", {}, ...row.map((cell, i) => h("td", { class: kind(i, cell) }, text(cell)))))),
-      ),
-    ),
-  ); // prettier-ignore
+  );
 }
 
 export function showExperiment(app: HTMLElement, document_: unknown): Experiment {
@@ -91,7 +105,7 @@ export function showExperiment(app: HTMLElement, document_: unknown): Experiment
     h("style", {}, experiment.svg_style),
     h("main", {},
       ...experiment.text.map((t) => h("p", { class: "lead" }, t)),
-      h("div", { class: "figures" }, ...experiment.figures.map(figure)),
+      h("div", { class: "figures" }, ...experiment.figures.map((f, i, all) => figure(all[i - 1]?.note === f.note && all[i - 1]?.figure === f.figure ? { ...f, note: "", figure: "" } : f))),
       ...experiment.tables.map(table),
     ),
   ); // prettier-ignore
