@@ -1,34 +1,52 @@
-# libFuzzer programs for every reader of a file format (fuzz/README.md), with sanitizers. They are built from the readers'
-# sources alone, so that trying a new reader takes seconds.
+# libFuzzer programs for the readers of file formats (docs/fuzzing.md), with sanitizers.
 
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   message(FATAL_ERROR "VANTAGE_FUZZ needs clang, which has libFuzzer: cmake --preset fuzz")
 endif()
-foreach(package fmt nlohmann_json yaml-cpp PNG liblzf)
+foreach(package fmt nlohmann_json yaml-cpp PNG ZLIB liblzf fcl urdfdom)
   find_package(${package} REQUIRED)
 endforeach()
 
-set(sources core/geometry map/grid map/voxel_map sensor/range_camera sensor/range_image)
-foreach(name atomic_file text_reader ply polygon mesh_file mesh_parsers stl pcd point_cloud_file pose_file json_text
-        yaml_text camera_file png16 depth_image nrrd map_file conf_file options)
-  list(APPEND sources io/${name})
-endforeach()
-list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/vantage/)
-list(TRANSFORM sources APPEND .cpp)
-add_library(vantage_fuzzed STATIC ${sources} ${PROJECT_SOURCE_DIR}/fuzz/readers.cpp)
-target_compile_features(vantage_fuzzed PUBLIC cxx_std_20)
-target_include_directories(vantage_fuzzed PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/fuzz)
-target_compile_options(vantage_fuzzed PUBLIC -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
-target_link_libraries(vantage_fuzzed
-  PUBLIC Eigen3::Eigen TBB::tbb fmt::fmt nlohmann_json::nlohmann_json yaml-cpp PNG::PNG liblzf::liblzf)
+# vantage_fuzzed(NAME SOURCE...): a library with instrumented code.
+function(vantage_fuzzed name)
+  list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/src/vantage/ OUTPUT_VARIABLE sources)
+  list(TRANSFORM sources APPEND .cpp)
+  add_library(${name} STATIC ${sources} ${PROJECT_SOURCE_DIR}/fuzz/${name}.cpp)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/fuzz)
+  target_compile_definitions(${name} PRIVATE VANTAGE_EXAMPLES="${PROJECT_SOURCE_DIR}/examples")
+  target_compile_options(${name} PUBLIC -O1 -g1 -ffp-contract=off -fsanitize=fuzzer-no-link,address,undefined
+    -fno-sanitize-recover=all)
+  target_link_libraries(${name} PUBLIC Eigen3::Eigen TBB::tbb fmt::fmt nlohmann_json::nlohmann_json yaml-cpp PNG::PNG
+    ZLIB::ZLIB liblzf::liblzf urdfdom::urdfdom_model)
+endfunction()
 
+# The readers' sources and what they need alone, so that trying a new reader takes seconds.
+set(io_files io/atomic_file io/text_reader io/ply io/polygon io/mesh_file io/mesh_parsers io/stl io/yaml_text io/json_text
+  io/pcd io/point_cloud_file io/pose_file io/camera_file io/png16 io/depth_image io/exr io/conf_file)
+vantage_fuzzed(file_readers core/geometry core/random
+  map/block_pixels map/grid map/integrate map/integrate_exactly map/integrator map/lattice_projection map/scan_limits
+  map/voxel_map map/voxel_ray sensor/range_camera sensor/range_image sensor/sight_line registration/scan_cloud
+  reconstruction/scan arm/arm_description ${io_files} io/nrrd io/map_file io/natural_order io/stored_run_files
+  doctor/pose_files experiments/run_outcome session/sealed_file session/session_scan session/skipped_views)
+# A robot's file ends in the planner, which is linked as it is.
+vantage_fuzzed(option_readers arm/arm arm/arm_collision arm/arm_description arm/arm_kinematics arm/joint_path
+  registration/fusion registration/scan_cloud reconstruction/error_options reconstruction/from_scans
+  reconstruction/options reconstruction/reconstruction reconstruction/scan ${io_files} io/natural_order io/options
+  io/robot_file io/scan_folder io/scan_planning_options io/pose_source io/organised_normals)
+target_link_libraries(option_readers PUBLIC vantage_core fcl)
+
+# vantage_fuzzer(READERS GROUP...): one program per group of readers.
 add_custom_target(fuzz_readers)
-foreach(reader mesh_ply mesh_obj mesh_stl mesh_off cloud_ply cloud_pcd cloud_xyzn depth_png map_labels map_surface
-        intrinsics_text intrinsics_yaml intrinsics_json pose_text pose_json trajectory conf options)
-  add_executable(fuzz_${reader} ${PROJECT_SOURCE_DIR}/fuzz/fuzz_reader.cpp)
-  target_compile_definitions(fuzz_${reader} PRIVATE VANTAGE_FUZZ_READER="${reader}")
-  target_link_libraries(fuzz_${reader} PRIVATE vantage_fuzzed)
-  target_link_options(fuzz_${reader} PRIVATE -fsanitize=fuzzer,address,undefined)
-  set_target_properties(fuzz_${reader} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
-  add_dependencies(fuzz_readers fuzz_${reader})
-endforeach()
+function(vantage_fuzzer readers)
+  foreach(group IN LISTS ARGN)
+    add_executable(fuzz_${group} ${PROJECT_SOURCE_DIR}/fuzz/fuzz_reader.cpp)
+    target_compile_definitions(fuzz_${group} PRIVATE VANTAGE_FUZZ_GROUP="${group}" VANTAGE_FUZZ_READERS=${readers})
+    target_link_libraries(fuzz_${group} PRIVATE ${readers})
+    target_link_options(fuzz_${group} PRIVATE -fsanitize=fuzzer,address,undefined)
+    set_target_properties(fuzz_${group} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+    add_dependencies(fuzz_readers fuzz_${group})
+  endforeach()
+endfunction()
+vantage_fuzzer(file_readers ply mesh pcd text image map yaml json scan urdf)
+vantage_fuzzer(option_readers options robot)

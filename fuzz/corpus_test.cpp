@@ -10,14 +10,23 @@
 namespace vantage::fuzz {
 namespace {
 
+namespace fs = std::filesystem;
+
+std::vector<Reader> readers() {
+  std::vector<Reader> all = file_readers();
+  all.insert(all.end(), option_readers().begin(), option_readers().end());
+  return all;
+}
+
 // Inputs that the fuzzer found or started from; each was once new to a reader.
 TEST(FuzzCorpus, EveryInputIsReadOrRefused) {
-  std::set<std::string> known;
+  const fs::path corpus = VANTAGE_FUZZ_CORPUS;
+  std::set<fs::path> known;
   for (const Reader& reader : readers()) {
-    known.emplace(reader.name);
+    const fs::path folder = corpus / reader.group / reader.name;
+    known.insert(folder);
     int accepted = 0, refused = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(VANTAGE_FUZZ_CORPUS) / reader.name)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
       try {
         reader.read(read_file(entry.path()));
         ++accepted;
@@ -29,9 +38,28 @@ TEST(FuzzCorpus, EveryInputIsReadOrRefused) {
     EXPECT_GT(accepted, 0) << reader.name << ": the corpus has a valid file";
     EXPECT_GT(refused, 0) << reader.name << ": the corpus has a file that is not valid";
   }
-  for (const auto& entry : std::filesystem::directory_iterator(VANTAGE_FUZZ_CORPUS)) {
-    EXPECT_TRUE(known.count(entry.path().filename().string())) << entry.path() << " belongs to no reader";
+  for (const auto& group : fs::directory_iterator(corpus)) {
+    for (const auto& folder : fs::directory_iterator(group)) {
+      EXPECT_TRUE(known.count(folder.path())) << folder.path() << " belongs to no reader";
+    }
   }
+}
+
+// The fuzzers of a group give every input to all of its readers.
+TEST(FuzzCorpus, EveryInputIsReadOrRefusedByTheReadersOfLikeFormatsToo) {
+  int reads = 0;
+  for (const Reader& reader : readers()) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(VANTAGE_FUZZ_CORPUS) / reader.group)) {
+      if (!entry.is_regular_file()) continue;
+      try {
+        reader.read(read_file(entry.path()));
+      } catch (const InputError&) {
+        // As it may be; anything else fails the test.
+      }
+      ++reads;
+    }
+  }
+  EXPECT_GT(reads, 300);
 }
 
 }  // namespace

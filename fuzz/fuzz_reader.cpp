@@ -1,6 +1,7 @@
-// One program per reader: CMake sets VANTAGE_FUZZ_READER to its name.
+// One program per group of readers: CMake sets VANTAGE_FUZZ_GROUP to its name and
+// VANTAGE_FUZZ_READERS to the list that it is in. Every reader of the group
+// gets every input, so that what is new to one is tried on those of like formats too.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,13 +10,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vantage;
-  static const auto read = std::find_if(fuzz::readers().begin(), fuzz::readers().end(), [](const fuzz::Reader& reader) {
-                             return reader.name == VANTAGE_FUZZ_READER;
-                           })->read;
-  try {
-    read({reinterpret_cast<const char*>(data), size});
-  } catch (const InputError&) {
-    // What a reader says to bytes that are no such file; anything else ends the program, which the fuzzer reports.
+  for (const fuzz::Reader& reader : fuzz::VANTAGE_FUZZ_READERS()) {
+    if (reader.group != VANTAGE_FUZZ_GROUP) continue;
+    try {
+      reader.read({reinterpret_cast<const char*>(data), size});
+    } catch (const InputError&) {
+      // What a reader says to bytes that are no such file; anything else ends the program, which the fuzzer reports.
+    }
   }
   return 0;
 }

@@ -8,10 +8,13 @@ namespace vantage::fuzz {
 /// A reader of a file format with any bytes as its input: it must return or throw InputError, nothing else.
 struct Reader {
   std::string_view name;
+  std::string_view group;  // readers of like formats, which share a fuzzer and what it finds
   void (*read)(std::string_view bytes);
 };
 
-/// Every reader that takes bytes from outside. `corpus/NAME` has inputs for each.
-[[nodiscard]] const std::vector<Reader>& readers();
+/// Readers of scans, poses, maps, sessions and results. `corpus/GROUP/NAME` has inputs for each.
+[[nodiscard]] const std::vector<Reader>& file_readers();
+/// Readers of options and robots, which need the planner.
+[[nodiscard]] const std::vector<Reader>& option_readers();
 
 }  // namespace vantage::fuzz

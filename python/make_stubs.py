@@ -12,6 +12,7 @@ if __name__ == "__main__":
 
 from vantage import _vantage  # noqa: E402
 
+SPECIAL = ("__init__", "__len__", "__enter__", "__exit__")
 HEAD = '''"""Type stubs of vantage, made by python/make_stubs.py; a test compares them with the module."""
 
 import enum
@@ -121,7 +122,7 @@ def class_lines(cls):
             lines += property_lines(name, value, "    ")
         elif isinstance(value, staticmethod):
             lines += function_lines(value.__func__, "    ", is_static=True)
-        elif callable(value) and signatures(value) and (not name.startswith("_") or name in ("__init__", "__len__")):
+        elif callable(value) and signatures(value) and (not name.startswith("_") or name in SPECIAL):
             lines += function_lines(value, "    ")
     return lines
 

@@ -14,4 +14,5 @@ PYBIND11_MODULE(_vantage, module) {
   bind_simulation(module);
   bind_files(module);
   bind_scan_model(module);
+  bind_session(module);
 }

@@ -80,5 +80,38 @@ TEST(ArmDescription, SaysWhatIsWrong) {
               HasSubstr("link 'tool'"));
 }
 
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+TEST(ArmDescription, RefusesJointsInACircle) {
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return concat("<joint name='", name, "' type='continuous'><axis xyz='0 0 1'/><parent link='", parent,
+                  "'/><child link='", child, "'/></joint>");
+  };
+  EXPECT_EQ(error_of("<robot name='r'><link name='root'/><link name='a'/><link name='b'/><link name='tool'/>" +
+                     joint("1", "b", "a") + joint("2", "a", "b") + joint("3", "b", "tool") + "</robot>"),
+            "a.urdf: the joints above link 'tool' go round in a circle through link 'b'");
+}
+
+// The XML parser calls itself once per level, and would run out of stack.
+TEST(ArmDescription, RefusesWhatIsNestedTooDeeply) {
+  for (const int levels : {250, 1'000'000}) {
+    EXPECT_THAT(error_of("<robot name='r'>" + repeated("<a b='/>'>", levels)), HasSubstr("nested deeper than 200"));
+    EXPECT_THAT(error_of(repeated("<!-- </a> --><a><![CDATA[</a>]]>", levels)), HasSubstr("nested deeper than 200"));
+  }
+  EXPECT_THAT(error_of("<robot name='r'>" + repeated("<a/><b></b><!-- <a> -->", 1000) + "</robot>"), HasSubstr("link"))
+      << "many elements side by side are fine; these are no links";
+  EXPECT_THAT(error_of(std::string("<robot name='r'>\0</robot>", 26)), HasSubstr("has a byte 0"));
+  std::string chain = "<robot name='r'><link name='l0'/>";
+  for (int i = 1; i <= 1000; ++i) {
+    chain += concat("<link name='l", i, "'/><joint name='j", i, "' type='continuous'><axis xyz='0 0 1'/><parent link='l",
+                    i - 1, "'/><child link='l", i, "'/></joint>");
+  }
+  EXPECT_EQ(error_of(chain + "</robot>", "l1000"), "a.urdf: has 1001 links, must have at most 1000");
+}
+
 }  // namespace
 }  // namespace vantage

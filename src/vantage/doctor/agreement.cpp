@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "vantage/core/parallel.hpp"
 
@@ -94,6 +95,30 @@ double share(const std::vector<Vec3>& points, const Pose& other_from_frame, doub
   return static_cast<double>(found) / static_cast<double>(asked);
 }
 
+std::optional<Cells> cells_of(const FrameEvidence& frame, const Reading& reading) {
+  if (frame.cloud.points.empty()) return std::nullopt;
+  return std::optional<Cells>(std::in_place, read(frame, reading), 2 * tolerance * frame.median_depth);
+}
+
+/// Every frame asks those right before and after it, which see most of the same, and an even choice of all others.
+bool is_asked(std::size_t frame, std::size_t other, std::size_t count) {
+  const std::size_t apart = frame > other ? frame - other : other - frame;
+  return apart != 0 && (apart <= 2 || apart % (count / most_frames_asked + 1) == 0);
+}
+
+double share_of_frame(std::size_t frame, const std::vector<Vec3>& points, const Reading& reading,
+                      const std::vector<std::optional<Cells>>& cells) {
+  double sum = 0;
+  std::size_t pairs = 0;
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    if (!cells[j] || !is_asked(frame, j, cells.size())) continue;
+    const Pose other_from_frame = reading.world_from_sensor[j].inverse() * reading.world_from_sensor[frame];
+    sum += share(points, other_from_frame, reading.depth_scale, *cells[j]);
+    ++pairs;
+  }
+  return pairs == 0 ? 0 : sum / static_cast<double>(pairs);
+}
+
 }  // namespace
 
 Reading as_given(const Evidence& evidence) {
@@ -113,27 +138,21 @@ PointCloud points_of(const FrameEvidence& frame, const Reading& reading) {
   return cloud;
 }
 
+double agreement_of_frame(const Evidence& evidence, const Reading& reading, std::size_t frame) {
+  std::vector<std::optional<Cells>> cells(evidence.frames.size());
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    if (is_asked(frame, j, cells.size())) cells[j] = cells_of(evidence.frames[j], reading);
+  }
+  return share_of_frame(frame, read(evidence.frames[frame], reading), reading, cells);
+}
+
 std::vector<double> agreement_of_frames(const Evidence& evidence, const Reading& reading) {
   const std::size_t count = evidence.frames.size();
-  std::vector<std::vector<Vec3>> points(count);
   std::vector<std::optional<Cells>> cells(count);
-  parallel_for(count, [&](std::size_t i) {
-    points[i] = read(evidence.frames[i], reading);
-    if (!points[i].empty()) cells[i].emplace(points[i], 2 * tolerance * evidence.frames[i].median_depth);
-  });
-  const std::size_t step = count / most_frames_asked + 1;
+  parallel_for(count, [&](std::size_t i) { cells[i] = cells_of(evidence.frames[i], reading); });
   std::vector<double> shares(count, 0.0);
   parallel_for(count, [&](std::size_t i) {
-    std::size_t pairs = 0;
-    // Every frame asks those right before and after it, which see most of the same, and an even choice of all others.
-    for (std::size_t j = 0; j < count; ++j) {
-      const std::size_t apart = i > j ? i - j : j - i;
-      if (apart == 0 || !cells[j] || (apart > 2 && apart % step != 0)) continue;
-      const Pose other_from_frame = reading.world_from_sensor[j].inverse() * reading.world_from_sensor[i];
-      shares[i] += share(points[i], other_from_frame, reading.depth_scale, *cells[j]);
-      ++pairs;
-    }
-    if (pairs > 0) shares[i] /= static_cast<double>(pairs);
+    shares[i] = share_of_frame(i, read(evidence.frames[i], reading), reading, cells);
   });
   return shares;
 }

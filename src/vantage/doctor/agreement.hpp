@@ -30,7 +30,9 @@ constexpr double believable_agreement = 0.25;
 /// number of threads.
 [[nodiscard]] double agreement(const Evidence& evidence, const Reading& reading);
 
-/// The same for each frame alone: with all other frames.
+/// The same for one frame alone: with all other frames.
+[[nodiscard]] double agreement_of_frame(const Evidence& evidence, const Reading& reading, std::size_t frame);
+/// For each.
 [[nodiscard]] std::vector<double> agreement_of_frames(const Evidence& evidence, const Reading& reading);
 
 }  // namespace vantage

@@ -140,6 +140,9 @@ struct Mistake {
   SetOnDisk astray = good;
   astray.frames[4].pose.block<3, 1>(0, 3) += 0.3 * random.unit_vector();
   add("pose-errors", good.frames[4].name.c_str(), astray);
+  SetOnDisk along = good;  // a table or wall that runs that way shares as much of itself as before
+  along.frames[4].pose(0, 3) += 0.3;
+  add("pose-errors", good.frames[4].name.c_str(), along);
   return all;
 }
 

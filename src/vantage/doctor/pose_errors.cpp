@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "vantage/core/error.hpp"
+#include "vantage/doctor/misplaced.hpp"
 #include "vantage/registration/registration.hpp"
 
 namespace vantage {
@@ -82,6 +83,30 @@ std::vector<Finding> check_all(const Evidence& evidence, const Reading& reading,
                   tried.frames, " of ", evidence.frames.size(), " were registered to those before")}};
 }
 
+std::string in_metres(const Vec3& offset) {
+  const auto rounded = [](double metres) { return std::round(100 * metres) / 100 + 0.0; };
+  return concat("(", rounded(offset.x()), ", ", rounded(offset.y()), ", ", rounded(offset.z()), ") m");
+}
+
+/// Frames that share enough with the others where they stand, but fit them better elsewhere.
+std::vector<Finding> check_misplaced(const Evidence& evidence, const Reading& reading, double pose_error) {
+  std::vector<Finding> findings;
+  for (const Misplaced& each : misplaced_frames(evidence, reading, pose_error)) {
+    const std::string& name = evidence.frames[each.frame].name;
+    findings.push_back(
+        {"pose-errors",
+         concat("frame ", name, " stands elsewhere than the others, by about ", in_metres(each.offset),
+                ", more than the ", pose_error, " m that registration searches"),
+         concat("take frame ", name, " anew or leave it out"),
+         concat("as given, ", percent(each.before),
+                " of the points that it and another frame look at float in front of what the other sees; "
+                "moved back, ",
+                percent(each.after), ", and it shares ", percent(each.agreed_then), " of its points instead of ",
+                percent(each.agreement))});
+  }
+  return findings;
+}
+
 }  // namespace
 
 std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& reading, double pose_error) {
@@ -101,7 +126,7 @@ std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& 
     off.push_back(evidence.frames[i].name);
     best = std::max(best, corrected[i]);
   }
-  if (off.empty()) return {};
+  if (off.empty()) return check_misplaced(evidence, reading, pose_error);
   return {{"pose-errors",
            concat(off.size(), " of ", shares.size(), " frames stand elsewhere than the others, by more than the ",
                   pose_error, " m that registration searches: ", list_of(off)),

@@ -38,24 +38,28 @@ std::string which(const std::vector<const RawPose*>& bad, std::size_t of) {
 
 }  // namespace
 
+std::optional<Eigen::Matrix4d> parse_raw_pose(std::string_view bytes) {
+  std::vector<double> numbers;
+  std::string word;
+  for (const char c : std::string(bytes) + " ") {
+    if (c != ' ' && c != '\t' && c != '\n' && c != '\r' && c != ',') {
+      word += c;
+    } else if (!word.empty()) {
+      numbers.push_back(to_double(word).value_or(std::nan("")));
+      word.clear();
+    }
+  }
+  if (numbers.size() != 16) return std::nullopt;
+  return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+}
+
 std::vector<RawPose> raw_poses(const std::filesystem::path& folder) {
   constexpr std::string_view ending = ".pose.txt";
   std::vector<RawPose> poses;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name.size() <= ending.size() || !name.ends_with(ending)) continue;
-    std::vector<double> numbers;
-    std::string word;
-    for (const char c : read_file(entry.path()) + " ") {
-      if (c != ' ' && c != '\t' && c != '\n' && c != '\r' && c != ',') {
-        word += c;
-      } else if (!word.empty()) {
-        numbers.push_back(to_double(word).value_or(std::nan("")));
-        word.clear();
-      }
-    }
-    if (numbers.size() != 16) continue;
-    poses.push_back({entry.path(), Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data())});
+    if (const auto matrix = parse_raw_pose(read_file(entry.path()))) poses.push_back({entry.path(), *matrix});
   }
   std::sort(poses.begin(), poses.end(), [](const RawPose& a, const RawPose& b) {
     return comes_before(a.file.filename().string(), b.file.filename().string());

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/doctor/finding.hpp"
@@ -15,6 +16,9 @@ struct RawPose {
   std::filesystem::path file;
   Eigen::Matrix4d matrix;
 };
+
+/// 16 numbers with blanks or commas between, row by row; NaN for words that are none. Nothing for more or fewer.
+[[nodiscard]] std::optional<Eigen::Matrix4d> parse_raw_pose(std::string_view bytes);
 
 /// The matrices of all `*.pose.txt` in a folder, by name. Files without 16 numbers are left to the reader of poses,
 /// which says what is wrong with them.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <bit>
 #include <csetjmp>
 
@@ -23,6 +24,7 @@ struct Codec {
   std::string output;
   std::string error;
   Gray16 image;
+  std::vector<png_byte> bytes;  // of an image of another kind, with equal bytes per row
 };
 
 void on_error(png_structp png, png_const_charp message) {
@@ -65,6 +67,21 @@ void read_rows(Codec& codec) {
     for (std::size_t row = 0; row < static_cast<std::size_t>(codec.image.resolution.rows); ++row) {
       png_read_row(codec.png, reinterpret_cast<png_bytep>(codec.image.values.data() + row * columns), nullptr);
     }
+  }
+  png_read_end(codec.png, nullptr);
+}
+
+/// Every kind of image as one or three channels of one or two bytes.
+void read_bytes(Codec& codec) {
+  png_set_expand(codec.png);
+  png_set_strip_alpha(codec.png);
+  const int passes = png_set_interlace_handling(codec.png);
+  png_read_update_info(codec.png, codec.info);
+  const std::size_t row_bytes = png_get_rowbytes(codec.png, codec.info);
+  const auto rows = static_cast<std::size_t>(codec.image.resolution.rows);
+  codec.bytes.resize(row_bytes * rows);
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t row = 0; row < rows; ++row) png_read_row(codec.png, codec.bytes.data() + row * row_bytes, nullptr);
   }
   png_read_end(codec.png, nullptr);
 }
@@ -115,32 +132,58 @@ std::string describe(int color_type, int bit_depth) {
   return fmt::format("{}, {} bits", color, bit_depth);
 }
 
-}  // namespace
-
-Gray16 decode_png16(std::string_view bytes, const std::string& name) {
+/// A reader that has read the header. Its image has the size, and no values yet.
+void open(Reader& reader, std::string_view bytes, const std::string& name) {
   if (bytes.empty()) throw InputError(name + ": is empty");
   if (png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, std::min<std::size_t>(8, bytes.size())) != 0) {
     throw InputError(name + ": is not a PNG file");
   }
-  Reader reader;
   reader.input = bytes;
   if (!succeeds(reader, read_header)) throw InputError(fmt::format("{}: {}", name, reader.error));
+  const std::size_t columns = png_get_image_width(reader.png, reader.info);
+  const std::size_t rows = png_get_image_height(reader.png, reader.info);
+  const std::size_t bits = png_get_bit_depth(reader.png, reader.info) * png_get_channels(reader.png, reader.info);
+  if (columns * rows * bits / 8 > best_ratio * bytes.size()) {
+    throw InputError(fmt::format("{}: {}x{} pixels are announced, which {} bytes cannot hold; the file is cut off",
+                                 name, columns, rows, bytes.size()));
+  }
+  reader.image.resolution = {static_cast<int>(columns), static_cast<int>(rows)};
+}
+
+}  // namespace
+
+Gray16 decode_png16(std::string_view bytes, const std::string& name) {
+  Reader reader;
+  open(reader, bytes, name);
   const int bit_depth = png_get_bit_depth(reader.png, reader.info);
   const int color_type = png_get_color_type(reader.png, reader.info);
   if (bit_depth != 16 || color_type != PNG_COLOR_TYPE_GRAY) {
     throw InputError(fmt::format("{}: is a PNG image of another kind ({}); depth must be grey, 16 bits", name,
                                  describe(color_type, bit_depth)));
   }
-  const std::size_t columns = png_get_image_width(reader.png, reader.info);
-  const std::size_t rows = png_get_image_height(reader.png, reader.info);
-  if (2 * columns * rows > best_ratio * bytes.size()) {
-    throw InputError(fmt::format("{}: {}x{} pixels are announced, which {} bytes cannot hold; the file is cut off",
-                                 name, columns, rows, bytes.size()));
-  }
-  reader.image.resolution = {static_cast<int>(columns), static_cast<int>(rows)};
-  reader.image.values.resize(columns * rows);
+  reader.image.values.resize(static_cast<std::size_t>(reader.image.resolution.rays()));
   if (!succeeds(reader, read_rows)) throw InputError(fmt::format("{}: {}", name, reader.error));
   return std::move(reader.image);
+}
+
+Mask decode_png_mask(std::string_view bytes, Resolution resolution, const std::string& name) {
+  Reader reader;
+  open(reader, bytes, name);
+  const Resolution found = reader.image.resolution;
+  if (!(found == resolution)) {
+    throw InputError(fmt::format("{}: has {}x{} pixels, the depth image {}x{}; a mask must have the same", name,
+                                 found.columns, found.rows, resolution.columns, resolution.rows));
+  }
+  if (!succeeds(reader, read_bytes)) throw InputError(fmt::format("{}: {}", name, reader.error));
+  Mask mask;
+  const std::size_t pixel_bytes = reader.bytes.size() / static_cast<std::size_t>(resolution.rays());
+  mask.reserve(static_cast<std::size_t>(resolution.rays()));
+  for (auto pixel = reader.bytes.cbegin(); pixel != reader.bytes.cend();) {
+    const auto next = pixel + static_cast<std::ptrdiff_t>(pixel_bytes);
+    mask.push_back(std::any_of(pixel, next, [](png_byte value) { return value != 0; }) ? 1 : 0);
+    pixel = next;
+  }
+  return mask;
 }
 
 std::string encode_png16(const Gray16& image) {

@@ -115,9 +115,11 @@ std::vector<OptionField> noting(std::vector<OptionField> fields, std::set<std::s
 }
 
 void load_robot(ReconstructOptions& options, const std::set<std::string>& given) {
-  if (!options.robot) return;
-  const std::filesystem::path file(*options.robot);
-  const std::string text = read_file(file);
+  if (options.robot) set_robot(options, read_file(*options.robot), *options.robot, given);
+}
+
+void set_robot(ReconstructOptions& options, const std::string& text, const std::filesystem::path& file,
+               const std::set<std::string>& given) {
   const std::string name = file.string();
 
   RobotDescription robot;

@@ -70,6 +70,10 @@ void describe(RobotDescription& o, Field&& field) {
 /// workspace and obstacles of the options count for the robot too. Throws InputError with the file and the line.
 void load_robot(ReconstructOptions& options, const std::set<std::string>& given = {});
 
+/// The same with the text of the robot's file, which would be called `file`.
+void set_robot(ReconstructOptions& options, const std::string& text, const std::filesystem::path& file,
+               const std::set<std::string>& given = {});
+
 /// The same fields, noting in `given` the names of those that are set.
 [[nodiscard]] std::vector<OptionField> noting(std::vector<OptionField> fields, std::set<std::string>& given);
 

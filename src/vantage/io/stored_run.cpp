@@ -1,78 +1,25 @@
 #include "vantage/io/stored_run.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.hpp"
 #include "vantage/io/atomic_file.hpp"
-#include "vantage/io/json_text.hpp"
 #include "vantage/io/map_file.hpp"
 #include "vantage/io/mesh_file.hpp"
 #include "vantage/io/point_cloud_file.hpp"
 #include "vantage/io/run_scene.hpp"
+#include "vantage/io/stored_run_files.hpp"
 #include "vantage/reconstruction/options.hpp"
 
 namespace vantage {
 namespace {
 
-View view_from_json(const nlohmann::json& pose, const std::string& what) {
-  require(pose.is_array() && pose.size() == 7, what, ": must be 7 numbers x y z qx qy qz qw");
-  std::array<double, 7> n{};
-  for (std::size_t i = 0; i < n.size(); ++i) n[i] = json_number(pose[i], what);
-  const Eigen::Quaterniond rotation(n[6], n[3], n[4], n[5]);
-  require(std::abs(rotation.norm() - 1) < 1e-3, what, ": the quaternion has length ", rotation.norm(), ", must be 1");
-  View view;
-  view.world_from_sensor.linear() = rotation.normalized().toRotationMatrix();
-  view.world_from_sensor.translation() = Vec3(n[0], n[1], n[2]);
-  return view;
-}
-
 bool says_that_it_failed(const std::string& verdict) {
   constexpr std::array failures{Verdict::insufficient_overlap, Verdict::not_converged, Verdict::large_residual,
                                 Verdict::degenerate, Verdict::ambiguous};
   return std::any_of(failures.begin(), failures.end(), [&](Verdict failure) { return verdict == name(failure); });
-}
-
-void read_summary(StoredRun& run, const std::filesystem::path& path) {
-  const nlohmann::json summary = parse_json(read_file(path), path.string());
-  require(summary.is_object(), path.string(), ": must be an object, is ", summary.type_name());
-  const nlohmann::json object = summary.value("object", nlohmann::json(run.object));
-  require(object.is_string(), path.string(), ", object: must be text, is ", object.type_name());
-  run.object = object.get<std::string>();
-  const nlohmann::json scans = summary.value("scans", nlohmann::json::array());
-  require(scans.is_array(), path.string(), ", scans: must be a list, is ", scans.type_name());
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const std::string what = concat(path.string(), ", scans[", i, "]");
-    require(scans[i].is_object(), what, ": must be an object, is ", scans[i].type_name());
-    ScanRecord scan;
-    scan.scan = static_cast<int>(i);
-    const nlohmann::json candidate = scans[i].value("candidate", nlohmann::json());
-    if (candidate.is_number_integer()) scan.candidate = candidate.get<int>();
-    for (const auto& [key, view] :
-         {std::pair{"commanded", &scan.commanded}, {"believed", &scan.believed}, {"registered", &scan.registered}})
-      *view = view_from_json(scans[i].value(key, nlohmann::json()), concat(what, ".", key));
-    const nlohmann::json verdict = scans[i].value("verdict", nlohmann::json());
-    if (verdict.is_string()) scan.verdict = verdict.get<std::string>();
-    scan.merged = !says_that_it_failed(scan.verdict);
-    run.scans.push_back(scan);
-  }
-}
-
-void read_config(StoredRun& run, const std::filesystem::path& path) {
-  try {
-    const YAML::Node config = YAML::Load(read_file(path));
-    if (const YAML::Node camera = config["camera"]) run.camera = camera_from_text(camera.as<std::string>());
-    if (const YAML::Node candidates = config["candidates"]) {
-      const Vec3 center = run.map ? run.map->enclosure_center() : Vec3(Vec3::Zero());
-      run.candidates = candidates_from_text(candidates.as<std::string>(), center);
-    }
-  } catch (const YAML::Exception& error) {
-    throw InputError(concat(path.string(), ": ", error.what()));
-  }
 }
 
 }  // namespace
@@ -87,8 +34,24 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
   if (has("map.nrrd")) run.map = read_map(folder / "map.nrrd");
   if (has("model.ply")) run.cloud = read_cloud(folder / "model.ply").cloud;
   if (has("mesh.ply")) run.mesh = read_mesh(folder / "mesh.ply");
-  if (has("summary.json")) read_summary(run, folder / "summary.json");
-  if (has("config.yaml")) read_config(run, folder / "config.yaml");
+  if (has("summary.json")) {
+    const std::filesystem::path file = folder / "summary.json";
+    StoredSummary summary = parse_run_summary(read_file(file), file.string());
+    run.object = summary.object.value_or(run.object);
+    run.scans = std::move(summary.scans);
+    for (ScanRecord& scan : run.scans) scan.merged = !says_that_it_failed(scan.verdict);
+  }
+  if (has("config.yaml")) {
+    const std::filesystem::path file = folder / "config.yaml";
+    const StoredConfig config = parse_run_config(read_file(file), file.string());
+    const Vec3 center = run.map ? run.map->enclosure_center() : Vec3(Vec3::Zero());
+    try {
+      if (config.camera) run.camera = camera_from_text(*config.camera);
+      if (config.candidates) run.candidates = candidates_from_text(*config.candidates, center);
+    } catch (const InputError& error) {
+      throw InputError(concat(file.string(), ": ", error.what()));
+    }
+  }
   return run;
 }
 

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.hpp"
 #include "vantage/io/atomic_file.hpp"
-#include "vantage/io/json_text.hpp"
 #include "vantage/session/sealed_file.hpp"
+#include "vantage/session/skipped_views.hpp"
 
 namespace vantage {
 namespace {
@@ -94,16 +93,8 @@ void SessionFolder::read_skipped() {
   const fs::path file = data_ / skipped_file;
   if (!fs::exists(file)) return;
   try {
-    const nlohmann::json list = parse_json(read_sealed(file), file.string());
-    require(list.is_array(), file.string(), ": must be a list");
-    for (const nlohmann::json& each : list) {
-      require(each.is_object() && each.contains("index") && each["index"].is_number_integer() &&
-                  each.contains("reason") && each["reason"].is_string(),
-              file.string(), ": each must have 'index' and 'reason'");
-      skipped_[each["index"].get<int>()] = each["reason"].get<std::string>();
-    }
+    skipped_ = parse_skipped_views(read_sealed(file), file.string());
   } catch (const InputError& error) {
-    skipped_.clear();
     dropped_.push_back(fmt::format("forgot which views were skipped: {}", error.what()));
   }
 }
@@ -154,9 +145,7 @@ std::optional<Located> SessionFolder::located(int number) const {
 }
 
 void SessionFolder::store_skipped(const std::map<int, std::string>& skipped) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& [candidate, reason] : skipped) list.push_back({{"index", candidate}, {"reason", reason}});
-  write_sealed(data_ / skipped_file, list.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  write_sealed(data_ / skipped_file, skipped_views_text(skipped));
   skipped_ = skipped;
 }
 
