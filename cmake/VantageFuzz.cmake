@@ -33,7 +33,8 @@ vantage_fuzzed(file_readers core/geometry core/random
 vantage_fuzzed(option_readers arm/arm arm/arm_collision arm/arm_description arm/arm_kinematics arm/joint_path
   registration/fusion registration/scan_cloud reconstruction/error_options reconstruction/from_scans
   reconstruction/options reconstruction/reconstruction reconstruction/scan ${io_files} io/natural_order io/options
-  io/robot_file io/scan_folder io/scan_planning_options io/pose_source io/organised_normals)
+  io/robot_file io/scan_folder io/scan_bytes io/scan_planning_options io/pose_source io/organised_normals io/run_files
+  session/session_scan server/multipart server/scan_upload server/session_request)
 target_link_libraries(option_readers PUBLIC vantage_core fcl)
 
 # vantage_fuzzer(READERS GROUP...): one program per group of readers.
@@ -49,4 +50,4 @@ function(vantage_fuzzer readers)
   endforeach()
 endfunction()
 vantage_fuzzer(file_readers ply mesh pcd text image map yaml json scan urdf)
-vantage_fuzzer(option_readers options robot)
+vantage_fuzzer(option_readers options robot http)

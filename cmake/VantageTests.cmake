@@ -50,7 +50,7 @@ if(VANTAGE_APPS)
   add_library(vantage_readers_under_test STATIC ${PROJECT_SOURCE_DIR}/fuzz/file_readers.cpp
     ${PROJECT_SOURCE_DIR}/fuzz/option_readers.cpp)
   target_include_directories(vantage_readers_under_test PUBLIC ${PROJECT_SOURCE_DIR}/fuzz)
-  target_link_libraries(vantage_readers_under_test PUBLIC vantage_full fmt::fmt PRIVATE vantage_build_settings)
+  target_link_libraries(vantage_readers_under_test PUBLIC vantage_server vantage_full fmt::fmt PRIVATE vantage_build_settings)
   target_compile_definitions(vantage_readers_under_test PRIVATE VANTAGE_EXAMPLES="${PROJECT_SOURCE_DIR}/examples")
   target_compile_definitions(vantage_readers_under_test INTERFACE VANTAGE_FUZZ_CORPUS="${PROJECT_SOURCE_DIR}/fuzz/corpus")
   vantage_test_program(fuzz_corpus_test ${PROJECT_SOURCE_DIR}/fuzz vantage_readers_under_test)
@@ -108,4 +108,11 @@ if(VANTAGE_APPS)
   # By hand with 60 the load lasts the minute that docs/sessions.md tells of, and the tray is fed too.
   add_test(NAME session.http.slow COMMAND ${http_test} 10 Load SameAsPlan.test_apc_shelf)
   set_tests_properties(session.http.slow PROPERTIES LABELS slow TIMEOUT 2400)
+endif()
+
+# Half a minute of fuzzing for each group of readers; it builds them first.
+find_program(VANTAGE_FUZZ_CLANG clang++-16)
+if(VANTAGE_APPS AND VANTAGE_FUZZ_CLANG AND NOT VANTAGE_SANITIZE)
+  add_test(NAME Fuzz.readers COMMAND ${PROJECT_SOURCE_DIR}/fuzz/run 30)
+  set_tests_properties(Fuzz.readers PROPERTIES LABELS slow TIMEOUT 2400)
 endif()

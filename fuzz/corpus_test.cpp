@@ -40,6 +40,7 @@ TEST(FuzzCorpus, EveryInputIsReadOrRefused) {
   }
   for (const auto& group : fs::directory_iterator(corpus)) {
     for (const auto& folder : fs::directory_iterator(group)) {
+      if (folder.path().filename() == "found") continue;  // by fuzzing, for all readers of the group
       EXPECT_TRUE(known.count(folder.path())) << folder.path() << " belongs to no reader";
     }
   }

@@ -54,6 +54,12 @@ void read_raw_pose(std::string_view bytes) {
   for (int flipped = 0; flipped < 4; ++flipped) (void)mended(poses, flipped);
 }
 
+void read_raw_depth(std::string_view bytes) {
+  const RangeCamera camera = camera_from_intrinsics(2, 2, 1, 0.5, {3, 2});
+  const DepthPixels pixels = decode_depth(bytes, camera.resolution, "input");
+  (void)std::visit([&](const auto& image) { return range_image(image, camera, {}); }, pixels);
+}
+
 void read_outcome(std::string_view bytes) {
   const nlohmann::json json = parse_json(bytes, "input");
   require(json.is_object(), "input: must be an object");
@@ -79,9 +85,16 @@ const std::vector<Reader>& file_readers() {
       {"trajectory", "text", [](Bytes bytes) { (void)parse_trajectory(bytes, "input"); }},
       {"conf", "text", [](Bytes bytes) { (void)parse_conf(bytes, "input"); }},
       {"depth_png", "image", [](Bytes bytes) { (void)decode_png16(bytes, "input"); }},
-      {"mask_png", "image", [](Bytes bytes) { (void)decode_png_mask(bytes, {3, 2}, "input"); }},
+      {"depth_raw", "image", read_raw_depth},
+      {"mask_png", "image",
+       [](Bytes bytes) {
+         (void)decode_png_mask(bytes, {3, 2}, "input");
+       }},
       {"exr", "image", [](Bytes bytes) { (void)decode_exr(bytes, "input"); }},
-      {"map_labels", "map", [](Bytes bytes) { (void)parse_map({"input", bytes}, std::nullopt); }},
+      {"map_labels", "map",
+       [](Bytes bytes) {
+         (void)parse_map({"input", bytes}, std::nullopt);
+       }},
       {"map_surface", "map", read_map_surface},
       {"intrinsics_yaml", "yaml", [](Bytes bytes) { (void)parse_intrinsics_yaml(bytes, "input"); }},
       {"run_config", "yaml", [](Bytes bytes) { (void)parse_run_config(bytes, "input"); }},

@@ -1,6 +1,11 @@
+#include <nlohmann/json.hpp>
+
 #include "readers.hpp"
 #include "vantage/io/robot_file.hpp"
 #include "vantage/io/scan_planning_options.hpp"
+#include "vantage/server/multipart.hpp"
+#include "vantage/server/scan_upload.hpp"
+#include "vantage/server/session_request.hpp"
 
 namespace vantage::fuzz {
 namespace {
@@ -22,6 +27,21 @@ void read_robot(std::string_view bytes) {
   set_robot(options, std::string(bytes), VANTAGE_EXAMPLES "/input.yaml");
 }
 
+/// A body that brings its own intrinsics, for a session with options that change what is read.
+void read_upload(std::string_view bytes) {
+  ScanFolderOptions reading;
+  reading.unit = "mm";
+  reading.hand_eye = "0,0,50,0,0,0,1";
+  reading.crop = Eigen::Matrix<double, 6, 1>{{0, 0, 1, 2, 2, 2}};
+  (void)parse_scan_upload(bytes, upload_options(reading));
+}
+
+void read_json_body(std::string_view bytes) {
+  const nlohmann::json body = body_object({{}, "application/json", std::string(bytes)}, {"candidate", "reason"});
+  (void)body_candidate(body, 80);
+  (void)body_text(body, "reason");
+}
+
 }  // namespace
 
 const std::vector<Reader>& option_readers() {
@@ -29,6 +49,9 @@ const std::vector<Reader>& option_readers() {
       {"options", "options", read_options},
       {"scan_options", "options", read_scan_options},
       {"robot", "robot", read_robot},
+      {"multipart", "http", [](std::string_view bytes) { (void)parse_multipart(bytes); }},
+      {"scan_upload", "http", read_upload},
+      {"json_body", "http", read_json_body},
   };
   return all;
 }

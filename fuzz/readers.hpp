@@ -14,7 +14,7 @@ struct Reader {
 
 /// Readers of scans, poses, maps, sessions and results. `corpus/GROUP/NAME` has inputs for each.
 [[nodiscard]] const std::vector<Reader>& file_readers();
-/// Readers of options and robots, which need the planner.
+/// Readers of options, robots and bodies of HTTP requests, which need the planner.
 [[nodiscard]] const std::vector<Reader>& option_readers();
 
 }  // namespace vantage::fuzz

@@ -21,6 +21,7 @@ void bind_registration(py::module_& module);
 void bind_simulation(py::module_& module);
 void bind_files(py::module_& module);
 void bind_scan_model(py::module_& module);
+void bind_depth_input(py::module_& module);
 void bind_session(py::module_& module);
 
 }  // namespace vantage::python

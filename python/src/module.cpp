@@ -14,5 +14,6 @@ PYBIND11_MODULE(_vantage, module) {
   bind_simulation(module);
   bind_files(module);
   bind_scan_model(module);
+  bind_depth_input(module);
   bind_session(module);
 }

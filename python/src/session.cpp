@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "bindings.hpp"
+#include "depth_input.hpp"
 #include "options.hpp"
 #include "vantage/io/robot_file.hpp"
 #include "vantage/io/scan_folder.hpp"
@@ -48,6 +49,15 @@ std::unique_ptr<OpenSession> new_session(const std::filesystem::path& folder, co
 ScanRecord add_scan(const OpenSession& session, const ScanHolder& scan, const View& believed, const std::string& name,
                     std::optional<int> candidate) {
   return session.get()->add({name, believed, scan.scan, candidate});
+}
+
+ScanRecord add_depth(const OpenSession& session, const py::array& depth, const DoubleArray& intrinsics,
+                     const Pose& pose, const std::vector<double>& distortion, const std::optional<py::array>& mask,
+                     const std::string& name, std::optional<int> candidate) {
+  const auto open = session.get();
+  auto [scan, view] = read_depth({depth, intrinsics, distortion, mask}, pose, open->options().reading);
+  const py::gil_scoped_release release;
+  return open->add({name, view, std::move(scan), candidate});
 }
 
 std::vector<ScanRecord> add_files(const OpenSession& session, const std::filesystem::path& path,
@@ -101,7 +111,8 @@ void bind_session(py::module_& module) {
   bind_status(module);
   ScanPlanningOptions defaults;
   const std::string help =
-      "A reconstruction in a folder, over hours and across restarts: scans are added to it and views asked of it. Every "
+      "A reconstruction in a folder, over hours and across restarts: scans are added to it and views asked of it. "
+      "Every "
       "scan is safe on disk before add() returns, and the same scans give the same map and plans as `vantage plan` and "
       "`vantage session`, which may go on with the folder. One process at a time. Any thread may call any member.\n\n"
       "Session(folder) opens one that is there, Session.new(folder, box=..., ...) makes one; `with` closes it.";
@@ -111,7 +122,8 @@ void bind_session(py::module_& module) {
       options_text(option_fields(defaults));
   ScanFolderOptions reading;
   const std::string files_help =
-      "Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or a "
+      "Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or "
+      "a "
       "Stanford .conf. candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.\n"
       "The session's options of reading, which keywords change for these scans alone:\n\n" +
       options_text(option_fields(reading));
@@ -123,6 +135,14 @@ void bind_session(py::module_& module) {
            "Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, "
            "then registered and merged where that succeeds. candidate: index of the planned view that it was taken "
            "from. Returns its ScanRecord once it is safe on disk.")
+      .def("add_depth", &add_depth, py::arg("depth"), py::arg("intrinsics"), py::arg("pose"),
+           py::arg("distortion") = std::vector<double>(), py::arg("mask") = py::none(), py::arg("name") = "",
+           py::arg("candidate") = py::none(),
+           "Adds a depth image as scan_from_depth() reads it, by the session's options (depth_scale, unit, hand_eye, "
+           "crop, ...): depth (rows, columns), uint16 or floating-point; intrinsics (3, 3); pose (4, 4) as the robot "
+           "reports it; mask (rows, columns), zero where a pixel does not count. Returns its ScanRecord once it is "
+           "safe on "
+           "disk.")
       .def("add_files", &add_files, py::arg("path"), py::arg("candidate") = py::none(), files_help.c_str())
       .def(
           "next", [](const OpenSession& session) { return next(session).plan; },

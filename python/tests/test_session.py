@@ -200,8 +200,8 @@ class Depths(InAFolder):
         np.testing.assert_allclose(scan.image.depth, 2, rtol=1e-6)
 
     def test_distortion_is_taken_out(self):
-        # k1 = -0.2: the ideal pixel (row 29.5 + 20, column 39.5 + 30) has x = 30/95, y = 20/95, r^2 = 0.14404, and lies
-        # in the distorted image at 1 - 0.2 r^2 = 0.97119 times these: column 39.5 + 29.136, row 29.5 + 19.424.
+        # k1 = -0.2: the ideal pixel (row 29 + 20, column 39 + 30) has x = 30/95, y = 20/95, r^2 = 0.14404, and lies
+        # in the distorted image at 1 - 0.2 r^2 = 0.97119 times these: column 39 + 29.136, row 29 + 19.424.
         depth = np.tile(np.arange(1, 81, dtype=np.float32)[None], (60, 1)) + 100 * np.arange(60, dtype=np.float32)[:, None]
         intrinsics = np.array([[95.0, 0, 39], [0, 95.0, 29], [0, 0, 1]])
         scan, _ = vantage.scan_from_depth(depth, intrinsics, np.eye(4), distortion=[-0.2, 0, 0, 0, 0], depth_range=[0, 1e6])

@@ -722,6 +722,11 @@ def open_scans(path: Union[str, pathlib.Path], **options: Any) -> ScanSet:
         no_return = none: value of a depth image that says that nothing is there
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
         intrinsics = : file with the intrinsics; one of the usual names if not given
+        masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
+        hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
+        crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
+        cloud_frame = sensor: frame of the points of clouds: sensor, or world
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)"""
 
 def read_pose(path: Union[str, pathlib.Path]) -> NDArray[numpy.float64]:
@@ -751,6 +756,11 @@ class ScanModel:
         no_return = none: value of a depth image that says that nothing is there
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
         intrinsics = : file with the intrinsics; one of the usual names if not given
+        masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
+        hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
+        crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
+        cloud_frame = sensor: frame of the points of clouds: sensor, or world
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)
         camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
         max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
@@ -809,6 +819,11 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         no_return = none: value of a depth image that says that nothing is there
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
         intrinsics = : file with the intrinsics; one of the usual names if not given
+        masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
+        hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
+        crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
+        cloud_frame = sensor: frame of the points of clouds: sensor, or world
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)
         camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
         max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
@@ -829,3 +844,147 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         navigation = true: use the navigation factor
         stop_occplane = 0 [voxels]: stop when no view sees more occplane voxels than this
         deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline"""
+
+def scan_from_depth(depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, **options: Any) -> Tuple[Scan, NDArray[numpy.float64]]:
+    """A Scan and the pose (4, 4) of its sensor from arrays as a driver and a robot give them.
+    depth: (rows, columns), uint16 in units of depth_scale, or floating-point numbers in `unit` (infinite: nothing there; 0, negative or NaN: unknown). intrinsics: (3, 3), pixels. pose: (4, 4), world from sensor, or from the robot's hand with hand_eye; its position in `unit`. distortion: k1 k2 p1 p2 k3 k4 k5 k6, or fewer. mask: (rows, columns), zero where a pixel does not count.
+    Options by keyword, as on the command line:
+        depth_scale = 0.001 [m]: what one unit of a depth image means
+        depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
+        no_return = none: value of a depth image that says that nothing is there
+        poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        intrinsics = : file with the intrinsics; one of the usual names if not given
+        masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
+        hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
+        crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
+        cloud_frame = sensor: frame of the points of clouds: sensor, or world
+        scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)"""
+
+
+class SessionStatus:
+    """How a session stands."""
+    @property
+    def stored(self) -> int:
+        """Scans that are safe on disk."""
+    @property
+    def integrated(self) -> int:
+        """Scans that were registered, with or without success."""
+    @property
+    def merged(self) -> int:
+        """Scans that are in the map."""
+    @property
+    def skipped(self) -> Dict[int, str]:
+        """Candidates that are not planned: {index: reason}."""
+    @property
+    def dropped(self) -> List[str]:
+        """What opening the session left out, a sentence each."""
+    @property
+    def warnings(self) -> List[str]:
+        """What could not be written since, a sentence each."""
+    @property
+    def radius(self) -> float:
+        """Of the sphere of candidate views, metres."""
+    @property
+    def distance(self) -> float:
+        """Travelled so far, metres."""
+
+
+class Session:
+    """A reconstruction in a folder, over hours and across restarts: scans are added to it and views asked of it. Every scan is safe on disk before add() returns, and the same scans give the same map and plans as `vantage plan` and `vantage session`, which may go on with the folder. One process at a time. Any thread may call any member.
+    Session(folder) opens one that is there, Session.new(folder, box=..., ...) makes one; `with` closes it."""
+    def __init__(self, folder: Union[str, pathlib.Path]) -> None:
+        """Opens a session."""
+    @staticmethod
+    def new(folder: Union[str, pathlib.Path], **options: Any) -> Session:
+        """Makes a session of a folder and opens it. Options by keyword, as those of `vantage session new`; box is required:
+            box = none [m]: where the object is: cx,cy,cz,sx,sy,sz; around all points if not given
+            voxel = none [m]: edge of a voxel; the longest side of the box over 55 if not given
+            radius = none [m]: of the view sphere; the sensor's mean distance from the box if not given
+            views = 80: candidates on the view sphere: 20*4^k
+            registration = icp: icp, or none to take the poses as they are
+            pose_error = 0.05 [m]: how far off the poses may be at most
+            pose_angle_error = 5 [degrees]: how far turned the poses may be at most
+            surroundings = 0.5 [box sides]: how far around the box things stand still, so that registration may use them
+            depth_scale = 0.001 [m]: what one unit of a depth image means
+            depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
+            no_return = none: value of a depth image that says that nothing is there
+            poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+            intrinsics = : file with the intrinsics; one of the usual names if not given
+            masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+            unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
+            hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
+            crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
+            cloud_frame = sensor: frame of the points of clouds: sensor, or world
+            scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)
+            camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
+            max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
+            body_radius = 0 [m]: radius of the robot's body around the sensor
+            workspace = none [m]: box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given
+            obstacles = none [m]: solid boxes cx,cy,cz,sx,sy,sz separated by ';'
+            robot = none: YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md
+            travel = none: what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight
+            search = exhaustive: exhaustive or multi-resolution
+            rays = sensor: rays of the exhaustive search: sensor, ideal or COLUMNSxROWS
+            multi_resolution_b = 10: b of eq. 16
+            multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
+            multi_resolution_columns = 40: columns of the coarsest stage, R_min
+            utility = combined: how views are judged: combined, gua, gain, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+            alpha_oc = 0.2: desired share of occupied voxels, eq. 7
+            alpha_op = 0.8: desired share of occplane voxels, eq. 7
+            rho = 0.2: navigation factor of the farthest view, eq. 10
+            navigation = true: use the navigation factor
+            stop_occplane = 0 [voxels]: stop when no view sees more occplane voxels than this
+            deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline"""
+    def add(self, scan: Scan, believed: ArrayLike, name: str = '', candidate: Optional[int] = None) -> ScanRecord:
+        """Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, then registered and merged where that succeeds. candidate: index of the planned view that it was taken from. Returns its ScanRecord once it is safe on disk."""
+    def add_depth(self, depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, name: str = '', candidate: Optional[int] = None) -> ScanRecord:
+        """Adds a depth image as scan_from_depth() reads it, by the session's options (depth_scale, unit, hand_eye, crop, ...): depth (rows, columns), uint16 or floating-point; intrinsics (3, 3); pose (4, 4) as the robot reports it; mask (rows, columns), zero where a pixel does not count. Returns its ScanRecord once it is safe on disk."""
+    def add_files(self, path: Union[str, pathlib.Path], candidate: Optional[int] = None, **options: Any) -> List[ScanRecord]:
+        """Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or a Stanford .conf. candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.
+        The session's options of reading, which keywords change for these scans alone:
+            depth_scale = 0.001 [m]: what one unit of a depth image means
+            depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
+            no_return = none: value of a depth image that says that nothing is there
+            poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+            intrinsics = : file with the intrinsics; one of the usual names if not given
+            masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+            unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
+            hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
+            crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
+            cloud_frame = sensor: frame of the points of clouds: sensor, or world
+            scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)"""
+    def next(self) -> Optional[Plan]:
+        """The Plan for the next scan, its views in rank with their factors and what fell out with the reason; None where there is none, why_finished then says so. Does not wait for a registration in another thread."""
+    @property
+    def why_finished(self) -> str:
+        """Why next() gives none; empty where it gives one."""
+    def skip(self, candidate: int, reason: str) -> None:
+        """This candidate is not planned again: it could not be reached, or nobody wants it."""
+    def unskip(self, candidate: int) -> None:
+        """Takes skip() back."""
+    def status(self) -> SessionStatus:
+        """How it stands: SessionStatus."""
+    @property
+    def map(self) -> VoxelMap:
+        """The VoxelMap after the last integrated scan; a copy."""
+    @property
+    def scans(self) -> List[ScanRecord]:
+        """List of ScanRecord, in the order of the scans."""
+    @property
+    def current(self) -> NDArray[numpy.float64]:
+        """(4, 4), where the last scan was taken."""
+    def cloud(self) -> PointCloud:
+        """The fused PointCloud in the box, world frame; a copy."""
+    def finish(self) -> None:
+        """Writes map.nrrd, map.ply, model.ply, mesh.ply, views.csv, summary.json and report.html into the folder. Scans may be added afterwards."""
+    @property
+    def folder(self) -> Union[str, pathlib.Path]:
+        """Path of the session."""
+    @property
+    def is_open(self) -> bool:
+        """False after close()."""
+    def close(self) -> None:
+        """Lets others open the session; this one can no longer be used."""
+    def __enter__(self) -> Session: ...
+    def __exit__(self, *args: Any) -> None: ...

@@ -8,13 +8,16 @@ import re
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 
-VANTAGE, DATA, KILLS = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), int(sys.argv.pop(1))
+VANTAGE, DATA = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
+KILLS = int(sys.argv.pop(1))
 SMALL = ["--voxel", "0.08", "--scene", "51,51,51", "--enclosure", "13,13,13", "--camera", "45x45:80x80",
          "--candidates", "sphere:20:2"]
 STORED = re.compile(r"^stored scan +(\d+) ", re.MULTILINE)
@@ -25,8 +28,8 @@ def run(*arguments, **keywords):
     return subprocess.run([VANTAGE, *map(str, arguments)], capture_output=True, text=True, timeout=600, **keywords)
 
 
-def succeed(*arguments):
-    result = run(*arguments)
+def succeed(*arguments, **keywords):
+    result = run(*arguments, **keywords)
     if result.returncode != 0:
         raise AssertionError(f"{arguments}: exit {result.returncode}: {result.stderr}")
     return result.stdout
@@ -217,6 +220,92 @@ class Answers(Sessions):
             (part / frame.name).unlink()
         self.assert_same_as_plan(part, sorted(part.glob("*.depth.png")), "mug.session",
                                  [BOX, "--views", "20", "--config", part / "scans.yaml"])
+
+
+def grey_png(columns, rows, value):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    pixels = zlib.compress(b"".join(b"\0" + bytes([value] * columns) for _ in range(rows)))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", pixels) + chunk(b"IEND", b""))
+
+
+class Reading(Sessions):
+    """The options of reading through plan, session and doctor; what each does to a scan is tested in C++."""
+
+    def setUp(self):
+        self.scans = self.root / "mug" / "scans"
+        self.options = [BOX, "--views", "20", "--registration", "none", "--config", self.scans / "scans.yaml"]
+        self.other = self.root / "other"
+        shutil.rmtree(self.other, ignore_errors=True)
+        shutil.copytree(self.scans, self.other)
+
+    def plan(self, scans, *options):
+        return json.loads(succeed("plan", scans, *self.options, "--json", *options))
+
+    def by_session(self, scans, *options):
+        folder = self.root / "reading"
+        shutil.rmtree(folder, ignore_errors=True)
+        succeed("session", "new", folder, *self.options, *options)
+        for frame in sorted(scans.glob("*.depth.png")):
+            succeed("session", "add", folder, frame, cwd="/")  # what it was told must hold from anywhere
+        return json.loads(succeed("session", "next", folder, "--json"))
+
+    def doctor(self, scans, *options):
+        result = run("doctor", scans, "--config", self.scans / "scans.yaml", "--json", *options)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return json.loads(result.stdout)
+
+    def test_poses_of_the_hand_in_millimetres(self):
+        # The sensor sits 100 mm ahead of the hand (its z axis), which is what the poses are of then.
+        for file in self.other.glob("*.pose.txt"):
+            rows = [[float(word) for word in line.split()] for line in file.read_text().splitlines()]
+            for row in rows[:3]:
+                row[3] = 1000 * (row[3] - 0.1 * row[2])
+            file.write_text("\n".join(" ".join(map(repr, row)) for row in rows) + "\n")
+        (self.root / "hand_eye.txt").write_text("1 0 0 0\n0 1 0 0\n0 0 1 100\n0 0 0 1\n")
+        options = ["--unit", "mm", "--hand-eye", os.path.relpath(self.root / "hand_eye.txt")]
+        expected, planned = self.plan(self.scans), self.plan(self.other, *options)
+        self.assertEqual(planned["next"]["index"], expected["next"]["index"])
+        for scan, wanted in zip(planned["scans"], expected["scans"]):
+            for value, other in zip(scan["believed"], wanted["believed"]):
+                self.assertAlmostEqual(value, other, delta=1e-9)
+        self.assertEqual(self.by_session(self.other, *options), planned)
+        self.assertAlmostEqual(self.doctor(self.other, *options)["agreement"], self.doctor(self.scans)["agreement"],
+                               delta=0.01)
+        by_numbers = self.plan(self.other, "--unit", "mm", "--hand-eye=0,0,100,0,0,0,1")
+        self.assertEqual(by_numbers, planned)
+
+    def test_masks_and_crop(self):
+        columns, rows = 80, 80
+        expected = self.plan(self.scans)
+        for frame in self.other.glob("*.depth.png"):
+            frame.with_name(frame.name.replace(".depth", ".mask")).write_bytes(grey_png(columns, rows, 255))
+        self.assertEqual(self.plan(self.other), expected)
+        self.assertEqual(self.plan(self.scans, "--masks", self.other), expected)
+        self.assertEqual(self.plan(self.scans, "--crop=0,0,0,1.04,1.04,1.04"), expected, "nothing is outside of the box")
+        self.assertEqual(self.by_session(self.other, "--crop=0,0,0,1.04,1.04,1.04"), expected)
+        first = sorted(self.other.glob("*.mask.png"))[0]
+        first.write_bytes(grey_png(columns, rows, 0))
+        self.assertNotEqual(self.plan(self.other), expected, "the first scan says nothing now")
+        first.write_bytes(grey_png(columns, rows + 1, 0))
+        for command in (["plan", self.other, *self.options], ["doctor", self.other, "--config", self.scans / "scans.yaml"]):
+            result = run(*command)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"{first.name}: has 80x81 pixels, the depth image 80x80; a mask must have the same", result.stderr)
+
+    def test_errors_name_the_value_and_what_is_right(self):
+        for options, text in [(["--unit", "feet"], "unit = 'feet': must be m, cm, mm or inch"),
+                              (["--crop=0,0,0,1,1,0"], "crop: must be cx,cy,cz,sx,sy,sz with positive sizes"),
+                              (["--cloud-frame", "map"], "cloud-frame = 'map': must be sensor or world"),
+                              (["--hand-eye=1,2,3"], "hand-eye: '1,2,3' has 3 numbers; must have 7"),
+                              (["--hand-eye", self.root / "none.txt"], "none.txt: cannot be read"),
+                              (["--masks", "nowhere"], ".mask.png: there is no such file; with --masks each frame")]:
+            for command in (["plan", self.scans, *self.options], ["doctor", self.scans]):
+                with self.subTest(command=command[0], options=options):
+                    result = run(*command, *options)
+                    self.assertEqual(result.returncode, 2, result.stdout)
+                    self.assertIn(text, result.stderr)
 
 
 class RealScans(Sessions):

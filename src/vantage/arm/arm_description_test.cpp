@@ -107,8 +107,9 @@ TEST(ArmDescription, RefusesWhatIsNestedTooDeeply) {
   EXPECT_THAT(error_of(std::string("<robot name='r'>\0</robot>", 26)), HasSubstr("has a byte 0"));
   std::string chain = "<robot name='r'><link name='l0'/>";
   for (int i = 1; i <= 1000; ++i) {
-    chain += concat("<link name='l", i, "'/><joint name='j", i, "' type='continuous'><axis xyz='0 0 1'/><parent link='l",
-                    i - 1, "'/><child link='l", i, "'/></joint>");
+    chain +=
+        concat("<link name='l", i, "'/><joint name='j", i, "' type='continuous'><axis xyz='0 0 1'/><parent link='l",
+               i - 1, "'/><child link='l", i, "'/></joint>");
   }
   EXPECT_EQ(error_of(chain + "</robot>", "l1000"), "a.urdf: has 1001 links, must have at most 1000");
 }

@@ -151,9 +151,8 @@ std::vector<double> agreement_of_frames(const Evidence& evidence, const Reading&
   std::vector<std::optional<Cells>> cells(count);
   parallel_for(count, [&](std::size_t i) { cells[i] = cells_of(evidence.frames[i], reading); });
   std::vector<double> shares(count, 0.0);
-  parallel_for(count, [&](std::size_t i) {
-    shares[i] = share_of_frame(i, read(evidence.frames[i], reading), reading, cells);
-  });
+  parallel_for(
+      count, [&](std::size_t i) { shares[i] = share_of_frame(i, read(evidence.frames[i], reading), reading, cells); });
   return shares;
 }
 

@@ -180,9 +180,8 @@ std::vector<Misplaced> misplaced_frames(const Evidence& evidence, const Reading&
   if (count < 3 || pose_error <= 0) return {};
   const Company company(evidence, reading);
   std::vector<std::optional<Misplaced>> places(count);
-  parallel_for(count, [&](std::size_t i) {
-    places[i] = better_place(company, i, reading.world_from_sensor[i], pose_error);
-  });
+  parallel_for(count,
+               [&](std::size_t i) { places[i] = better_place(company, i, reading.world_from_sensor[i], pose_error); });
   std::vector<Misplaced> found;
   for (const auto& place : places) {
     if (place) found.push_back(*place);

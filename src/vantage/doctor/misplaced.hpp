@@ -31,8 +31,8 @@ struct Misplaced {
 };
 
 /// Frames whose points float where others see through (or hide what others see), and that stop to do so where they are
-/// moved by at least twice `pose_error`, without sharing less with the others there. So a frame is found that was shifted
-/// along a table or a wall, which shares as much of that as before.
+/// moved by at least twice `pose_error`, without sharing less with the others there. So a frame is found that was
+/// shifted along a table or a wall, which shares as much of that as before.
 [[nodiscard]] std::vector<Misplaced> misplaced_frames(const Evidence& evidence, const Reading& reading,
                                                       double pose_error);
 

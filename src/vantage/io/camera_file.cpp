@@ -20,14 +20,6 @@ namespace {
 constexpr int longest_side = 16384;
 constexpr std::size_t most_coefficients = 8;
 
-/// Intrinsics from a camera matrix, row by row.
-Intrinsics from_matrix(const std::array<double, 9>& k, const std::string& name) {
-  require(k[6] == 0 && k[7] == 0 && k[8] == 1, name, ": the last row of the camera matrix is ", k[6], " ", k[7], " ",
-          k[8], ", must be 0 0 1 (is the matrix transposed?)");
-  require(k[1] == 0 && k[3] == 0, name, ": the camera matrix has a skew (", k[1], ", ", k[3], "), must be 0");
-  return {.fx = k[0], .fy = k[4], .cx = k[2], .cy = k[5], .resolution = std::nullopt, .distortion = {}};
-}
-
 Resolution resolution_of(double width, double height, const std::string& name) {
   for (const double side : {width, height}) {
     require(side >= 1 && side <= longest_side && side == std::floor(side), name, ": the image is ", width, "x", height,
@@ -60,6 +52,10 @@ std::vector<double> yaml_numbers(YAML::Node node, std::string_view what, const s
   std::vector<double> numbers;
   for (const YAML::Node& item : node) numbers.push_back(yaml_number(item, what, name));
   return numbers;
+}
+
+Intrinsics from_matrix(const std::array<double, 9>& row_by_row, const std::string& name) {
+  return intrinsics_of(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(row_by_row.data()), name);
 }
 
 std::vector<double> read_distortion(const YAML::Node& info, const std::string& name) {
@@ -96,7 +92,18 @@ void Intrinsics::validate() const {
   require(std::isfinite(cx) && std::isfinite(cy), "cx = ", cx, ", cy = ", cy, ": must be finite numbers (pixels)");
   require(distortion.size() <= most_coefficients, "distortion: ", distortion.size(), " coefficients, must be at most ",
           most_coefficients);
+  for (const double coefficient : distortion) {
+    require(std::isfinite(coefficient), "distortion: ", coefficient, ": must be finite numbers");
+  }
   if (resolution) (void)camera_from_intrinsics(fx, fy, cx, cy, *resolution);
+}
+
+Intrinsics intrinsics_of(const Mat3& k, const std::string& name) {
+  require(k(2, 0) == 0 && k(2, 1) == 0 && k(2, 2) == 1, name, ": the last row of the camera matrix is ", k(2, 0), " ",
+          k(2, 1), " ", k(2, 2), ", must be 0 0 1 (is the matrix transposed?)");
+  require(k(0, 1) == 0 && k(1, 0) == 0, name, ": the camera matrix has a skew (", k(0, 1), ", ", k(1, 0),
+          "), must be 0");
+  return {.fx = k(0, 0), .fy = k(1, 1), .cx = k(0, 2), .cy = k(1, 2), .resolution = std::nullopt, .distortion = {}};
 }
 
 bool Intrinsics::is_distorted() const {

@@ -23,6 +23,10 @@ struct Intrinsics {
   [[nodiscard]] bool is_distorted() const;
 };
 
+/// Intrinsics from a camera matrix (fx 0 cx, 0 fy cy, 0 0 1). Throws InputError starting with `name` for another one;
+/// the values themselves are checked by validate().
+[[nodiscard]] Intrinsics intrinsics_of(const Mat3& matrix, const std::string& name);
+
 /// Intrinsics by the ending of the name: `.txt` 3x3 numbers row by row; `.yaml` or `.yml` ROS camera_info (calibration
 /// file or printed message); `.json` Open3D's PinholeCameraIntrinsic. Throws InputError naming the file, the field and
 /// what would be right.

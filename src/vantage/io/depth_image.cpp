@@ -25,6 +25,21 @@ void check_resolution(Resolution image, Resolution camera, const std::string& na
                   image.columns, image.rows, camera.columns, camera.rows));
 }
 
+FloatImage decode_raw(std::string_view bytes, Resolution resolution, const std::string& name) {
+  const auto pixels = static_cast<std::size_t>(resolution.rays());
+  if (bytes.size() != 4 * pixels) {
+    throw InputError(fmt::format("{}: has {} bytes; {}x{} pixels of float32 are {}", name, bytes.size(),
+                                 resolution.columns, resolution.rows, 4 * pixels));
+  }
+  FloatImage image{resolution, std::vector<float>(pixels)};
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::uint32_t raw = 0;
+    for (std::size_t k = 0; k < 4; ++k) raw |= std::uint32_t{static_cast<unsigned char>(bytes[4 * i + k])} << (8 * k);
+    image.values[i] = std::bit_cast<float>(raw);
+  }
+  return image;
+}
+
 }  // namespace
 
 void DepthEncoding::validate() const {
@@ -76,22 +91,37 @@ RangeImage parse_depth_png(std::string_view bytes, const RangeCamera& camera, co
   return range_image(image, camera, encoding);
 }
 
-RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, const DepthEncoding& encoding,
-                           const std::string& name) {
+RangeImage range_image(const FloatImage& image, const RangeCamera& camera, const DepthEncoding& encoding) {
   encoding.validate();
   camera.validate();
-  const auto pixels = static_cast<std::size_t>(camera.resolution.rays());
-  if (bytes.size() != 4 * pixels) {
-    throw InputError(fmt::format("{}: has {} bytes; {}x{} pixels of float32 are {}", name, bytes.size(),
-                                 camera.resolution.columns, camera.resolution.rows, 4 * pixels));
-  }
-  RangeImage result{camera, std::vector<float>(pixels)};
-  for (std::size_t i = 0; i < pixels; ++i) {
-    std::uint32_t raw = 0;
-    for (std::size_t k = 0; k < 4; ++k) raw |= std::uint32_t{static_cast<unsigned char>(bytes[4 * i + k])} << (8 * k);
-    result.depth[i] = within_limits(encoding.metres_per_float * static_cast<double>(std::bit_cast<float>(raw)), camera);
+  check_resolution(image.resolution, camera.resolution, "depth image");
+  RangeImage result{camera, std::vector<float>(image.values.size())};
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    result.depth[i] = within_limits(encoding.metres_per_float * static_cast<double>(image.values[i]), camera);
   }
   return result;
+}
+
+RangeImage masked(RangeImage image, const Mask& mask) {
+  require(mask.size() == image.depth.size(), "mask: has ", mask.size(), " pixels, the depth image ", image.depth.size(),
+          "; must have the same");
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 0) image.depth[i] = RangeImage::unknown;
+  }
+  return image;
+}
+
+DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>& raw, const std::string& name) {
+  if (is_png(bytes)) return decode_png16(bytes, name);
+  if (is_exr(bytes)) return decode_exr(bytes, name);
+  require(raw.has_value(), name,
+          ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
+  return decode_raw(bytes, *raw, name);
+}
+
+RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, const DepthEncoding& encoding,
+                           const std::string& name) {
+  return range_image(decode_raw(bytes, camera.resolution, name), camera, encoding);
 }
 
 RangeImage read_depth_image(const std::filesystem::path& path, const RangeCamera& camera,
@@ -99,11 +129,16 @@ RangeImage read_depth_image(const std::filesystem::path& path, const RangeCamera
   const auto ending = path.extension();
   if (ending == ".png") return parse_depth_png(read_file(path), camera, encoding, path.string());
   if (ending == ".raw") return parse_depth_raw(read_file(path), camera, encoding, path.string());
-  throw InputError(path.string() + ": a depth image must be a .png or .raw file");
+  require(ending == ".exr", path.string(), ": a depth image must be a .png, .exr or .raw file");
+  const FloatImage image = decode_exr(read_file(path), path.string());
+  check_resolution(image.resolution, camera.resolution, path.string());
+  return range_image(image, camera, encoding);
 }
 
 Resolution read_depth_resolution(const std::filesystem::path& path) {
-  return decode_png16(read_file(path), path.string()).resolution;
+  const std::string bytes = read_file(path);
+  if (path.extension() == ".exr") return decode_exr(bytes, path.string()).resolution;
+  return decode_png16(bytes, path.string()).resolution;
 }
 
 void write_depth_png(const std::filesystem::path& path, const RangeImage& image, const DepthEncoding& encoding) {

@@ -123,8 +123,8 @@ Resolution resolution_of(const Header& header, const std::string& name) {
   const Window& window = *header.data;
   const std::int64_t columns = std::int64_t{window.right} - window.left + 1;
   const std::int64_t rows = std::int64_t{window.bottom} - window.top + 1;
-  require(columns > 0 && rows > 0 && columns <= longest_side && rows <= longest_side, name, ": has ", columns, "x", rows,
-          " pixels; must have 1 to ", longest_side, " on each side");
+  require(columns > 0 && rows > 0 && columns <= longest_side && rows <= longest_side, name, ": has ", columns, "x",
+          rows, " pixels; must have 1 to ", longest_side, " on each side");
   require(window == *header.display, name, ": holds only a part of its image; must be saved uncropped");
   return {static_cast<int>(columns), static_cast<int>(rows)};
 }

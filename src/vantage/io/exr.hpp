@@ -19,8 +19,8 @@ struct FloatImage {
 
 /// One channel of an OpenEXR image: the only one, or else `Z` or `Y` (also as the last word of a layer's name). Scan
 /// lines without compression, RLE, ZIPS or ZIP; pixels of 16 or 32 bits. Throws InputError with `name` where the bytes
-/// are something else, damaged, cut off, or larger than 16384 pixels on a side. Memory stays in proportion to the input,
-/// whatever the header promises.
+/// are something else, damaged, cut off, or larger than 16384 pixels on a side. Memory stays in proportion to the
+/// input, whatever the header promises.
 [[nodiscard]] FloatImage decode_exr(std::string_view bytes, const std::string& name);
 
 }  // namespace vantage

@@ -135,9 +135,7 @@ std::string describe(int color_type, int bit_depth) {
 /// A reader that has read the header. Its image has the size, and no values yet.
 void open(Reader& reader, std::string_view bytes, const std::string& name) {
   if (bytes.empty()) throw InputError(name + ": is empty");
-  if (png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, std::min<std::size_t>(8, bytes.size())) != 0) {
-    throw InputError(name + ": is not a PNG file");
-  }
+  if (!is_png(bytes)) throw InputError(name + ": is not a PNG file");
   reader.input = bytes;
   if (!succeeds(reader, read_header)) throw InputError(fmt::format("{}: {}", name, reader.error));
   const std::size_t columns = png_get_image_width(reader.png, reader.info);
@@ -151,6 +149,11 @@ void open(Reader& reader, std::string_view bytes, const std::string& name) {
 }
 
 }  // namespace
+
+bool is_png(std::string_view bytes) {
+  const std::size_t count = std::min<std::size_t>(8, bytes.size());
+  return count > 0 && png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, count) == 0;
+}
 
 Gray16 decode_png16(std::string_view bytes, const std::string& name) {
   Reader reader;

@@ -15,6 +15,9 @@ struct Gray16 {
   std::vector<std::uint16_t> values;
 };
 
+/// Whether the bytes begin as a PNG file does.
+[[nodiscard]] bool is_png(std::string_view bytes);
+
 /// Throws InputError with `name` where the bytes are no PNG, damaged or cut off, of another colour type or bit depth,
 /// or larger than 16384 pixels on a side. Memory stays in proportion to the input, whatever the header promises.
 [[nodiscard]] Gray16 decode_png16(std::string_view bytes, const std::string& name);

@@ -10,14 +10,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::string_view png_signature = "\x89PNG";
-
-Resolution raw_resolution(const Intrinsics& intrinsics, const std::string& name) {
-  require(intrinsics.resolution.has_value(), name,
-          ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
-  return *intrinsics.resolution;
-}
-
 std::optional<Box3> crop_box(const ScanFolderOptions& options) {
   if (!options.crop) return std::nullopt;
   const Vec3 center = options.crop->head<3>(), half = 0.5 * options.crop->tail<3>();
@@ -64,7 +56,7 @@ DepthEncoding depth_encoding(const ScanFolderOptions& options) {
 
 Pose hand_eye_offset(const ScanFolderOptions& options) {
   if (options.hand_eye.empty()) return Pose::Identity();
-  if (options.hand_eye.find(',') == std::string::npos) {
+  if (options.hand_eye_is_file()) {
     Pose offset = read_pose(options.hand_eye);
     offset.translation() *= options.metres_per_unit();
     return offset;
@@ -80,16 +72,22 @@ Pose sensor_pose(const Pose& read, const Pose& hand_eye, const ScanFolderOptions
   return options.hand_eye.empty() ? hand : Pose(hand * hand_eye);
 }
 
+Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics, const std::optional<Mask>& mask,
+                   const ScanFolderOptions& options) {
+  const auto scan = [&](const auto& image) {
+    RangeCamera camera = pinhole_camera(intrinsics, image.resolution);
+    camera.min_depth = options.depth_range[0];
+    camera.max_depth = options.depth_range[1];
+    RangeImage depth = range_image(image, camera, depth_encoding(options));
+    if (mask) depth = masked(std::move(depth), *mask);
+    return scan_of(undistorted(std::move(depth), intrinsics));
+  };
+  return std::visit(scan, pixels);
+}
+
 Scan scan_of_depth(std::string_view bytes, const Intrinsics& intrinsics, const ScanFolderOptions& options,
                    const std::string& name) {
-  const bool is_png = bytes.starts_with(png_signature);
-  const std::optional<Gray16> image = is_png ? std::optional(decode_png16(bytes, name)) : std::nullopt;
-  RangeCamera camera = pinhole_camera(intrinsics, image ? image->resolution : raw_resolution(intrinsics, name));
-  camera.min_depth = options.depth_range[0];
-  camera.max_depth = options.depth_range[1];
-  const DepthEncoding encoding = depth_encoding(options);
-  RangeImage depth = image ? range_image(*image, camera, encoding) : parse_depth_raw(bytes, camera, encoding, name);
-  return scan_of(undistorted(std::move(depth), intrinsics));
+  return scan_of_depth(decode_depth(bytes, intrinsics.resolution, name), intrinsics, std::nullopt, options);
 }
 
 Scan scan_of_cloud(const CloudFile& file, const Pose& world_from_sensor, const ScanFolderOptions& options) {

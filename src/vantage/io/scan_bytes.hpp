@@ -19,8 +19,12 @@ namespace vantage {
 /// the option or the file.
 [[nodiscard]] Pose hand_eye_offset(const ScanFolderOptions& options);
 
-/// A depth image of a camera with these intrinsics from memory: PNG (16 bit) or else raw float32 of the intrinsics' own
-/// resolution. Throws InputError starting with `name`.
+/// A depth image of a camera with these intrinsics, without the pixels that the mask takes away and without distortion.
+/// Throws InputError where the sizes do not fit.
+[[nodiscard]] Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics,
+                                 const std::optional<Mask>& mask, const ScanFolderOptions& options);
+/// The same from a file's bytes (decode_depth()); raw ones have the intrinsics' own resolution. Throws InputError
+/// starting with `name`.
 [[nodiscard]] Scan scan_of_depth(std::string_view bytes, const Intrinsics& intrinsics, const ScanFolderOptions& options,
                                  const std::string& name);
 

@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array frame_endings{".depth.png", ".depth.raw"};
+constexpr std::array frame_endings{".depth.png", ".depth.exr", ".depth.raw"};
+constexpr const char* mask_ending = ".mask.png";
 constexpr std::array cloud_endings{".ply", ".pcd", ".xyz", ".xyzn"};
 constexpr std::array conf_endings{".conf"};
 
@@ -77,10 +78,18 @@ fs::path intrinsics_file(const fs::path& folder, const ScanFolderOptions& option
 }
 
 Resolution image_resolution(const Found& frame, const Intrinsics& intrinsics) {
-  if (frame.path.extension() == ".png") return read_depth_resolution(frame.path);
+  if (frame.path.extension() != ".raw") return read_depth_resolution(frame.path);
   require(intrinsics.resolution.has_value(), frame.path.string(),
           ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
   return *intrinsics.resolution;
+}
+
+/// The mask of a frame; nothing where it has none and needs none.
+std::optional<fs::path> mask_file(const fs::path& folder, const std::string& name, const ScanFolderOptions& options) {
+  fs::path mask = (options.masks.empty() ? folder : below(folder, options.masks)) / (name + mask_ending);
+  if (fs::exists(mask)) return mask;
+  require(options.masks.empty(), mask.string(), ": there is no such file; with --masks each frame must have one");
+  return std::nullopt;
 }
 
 std::vector<Pose> sensor_poses(const fs::path& folder, const std::vector<Found>& scans,
@@ -89,6 +98,10 @@ std::vector<Pose> sensor_poses(const fs::path& folder, const std::vector<Found>&
   const Pose hand_eye = hand_eye_offset(options);
   for (Pose& pose : poses) pose = sensor_pose(pose, hand_eye, options);
   return poses;
+}
+
+Mask read_mask(const fs::path& path, Resolution resolution) {
+  return decode_png_mask(read_file(path), resolution, path.string());
 }
 
 ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& frames, const ScanFolderOptions& options) {
@@ -109,9 +122,11 @@ ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& fram
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const fs::path path = frames[i].path;
     const View view{poses[i]};
-    set.scans.push_back({frames[i].name, view, [path, camera, encoding, intrinsics, view, options] {
-                           return cropped(scan_of(undistorted(read_depth_image(path, camera, encoding), intrinsics)),
-                                          view, options);
+    const std::optional<fs::path> mask = mask_file(folder, frames[i].name, options);
+    set.scans.push_back({frames[i].name, view, [path, mask, camera, encoding, intrinsics, view, options] {
+                           RangeImage image = read_depth_image(path, camera, encoding);
+                           if (mask) image = masked(std::move(image), read_mask(*mask, camera.resolution));
+                           return cropped(scan_of(undistorted(std::move(image), intrinsics)), view, options);
                          }});
   }
   return set;
@@ -170,7 +185,7 @@ ScanSet open_folder(const fs::path& folder, const ScanFolderOptions& options) {
   if (!confs.empty()) return open_conf(confs.front().path, options);
   std::vector<Found> clouds = files_ending_with(folder, cloud_endings);
   require(!clouds.empty(), folder.string(),
-          ": has no scans; must have NAME.depth.png or .raw, NAME.ply, .pcd or .xyz, or a .conf file");
+          ": has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, or a .conf file");
   return open_clouds(folder, clouds, options);
 }
 

@@ -23,6 +23,8 @@ struct ScanFolderOptions {
   std::string poses = "";
   /// File, likewise; empty: one of the usual names.
   std::string intrinsics = "";
+  /// Folder of masks NAME.mask.png, likewise; empty: those that lie beside the scans.
+  std::string masks = "";
   /// y and z of the point where the sight lines of a Stanford scan meet, metres in its frame.
   Eigen::Vector2d scanner_origin{0.18, 1.3};
   /// Unit of poses, clouds and floating-point depths: m, cm, mm or inch.
@@ -38,6 +40,8 @@ struct ScanFolderOptions {
   /// Throws InputError naming the option.
   void validate() const;
   [[nodiscard]] double metres_per_unit() const;
+  /// Whether `hand_eye` names a file, rather than being empty or numbers.
+  [[nodiscard]] bool hand_eye_is_file() const { return !hand_eye.empty() && hand_eye.find(',') == std::string::npos; }
 };
 
 template <class Field>
@@ -47,6 +51,8 @@ void describe(ScanFolderOptions& o, Field&& field) {
   field("no-return", o.no_return, "", "value of a depth image that says that nothing is there");
   field("poses", o.poses, "", "folder of pose files or trajectory (TUM); beside the frames if not given");
   field("intrinsics", o.intrinsics, "", "file with the intrinsics; one of the usual names if not given");
+  field("masks", o.masks, "",
+        "folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given");
   field("unit", o.unit, "", "unit of poses, clouds and floating-point depths: m, cm, mm or inch");
   field("hand-eye", o.hand_eye, "unit",
         "pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's");
@@ -68,7 +74,8 @@ struct ScanSet {
 };
 
 /// The scans of
-/// - a folder with `NAME.depth.png` (16 bit) or `NAME.depth.raw` (float32), intrinsics (`camera-intrinsics.txt`,
+/// - a folder with `NAME.depth.png` (16 bit), `NAME.depth.exr` or `NAME.depth.raw` (floats), intrinsics
+/// (`camera-intrinsics.txt`,
 ///   `camera_info.yaml`, `intrinsics.json` ...) and `NAME.pose.txt` or `NAME.pose.json` each, or a trajectory whose
 ///   times are the names, or as long as there are frames;
 /// - a folder with clouds `NAME.ply`, `.pcd`, `.xyz`, `.xyzn` in the sensor's frame and such poses;

@@ -52,6 +52,10 @@ void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& opti
   create_folders(data);
   const FolderLock lock(data, in_use);
   ScanPlanningOptions copy = options;
+  // The session may be opened from anywhere; numbers stand as they are.
+  const auto make_absolute = [](std::string& file) { file = fs::absolute(file).lexically_normal().string(); };
+  if (copy.planning.robot) make_absolute(*copy.planning.robot);
+  if (copy.reading.hand_eye_is_file()) make_absolute(copy.reading.hand_eye);
   write_file_atomically(data / options_file, "# vantage session, format 1\n" + options_as_yaml(option_fields(copy)));
 }
 
