@@ -34,6 +34,7 @@ void serve_session(const Request& request) {
   catch_interrupts();
   start_and_tell(*server);
   wait_for_interrupt();
+  service.stop();
 }
 
 void serve(const Request& request) {

@@ -49,15 +49,16 @@ SessionService::SessionService(const std::filesystem::path& folder, LiveRun& run
   planner_ = std::thread([this] { plan_for_page(); });
 }
 
-SessionService::~SessionService() {
+SessionService::~SessionService() { stop(); }
+
+void SessionService::stop() {
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
-  stored_.notify_all();
-  plan_wanted_.notify_all();
-  integrator_.join();
-  planner_.join();
+  for (std::condition_variable* each : {&stored_, &merged_, &plan_wanted_}) each->notify_all();
+  for (std::thread* each : {&integrator_, &planner_})
+    if (each->joinable()) each->join();
 }
 
 void SessionService::was_merged(const SessionModel& model) {
@@ -75,12 +76,12 @@ void SessionService::want_plan() {
 }
 
 void SessionService::integrate_stored() {
-  int done = -1;
   std::unique_lock lock(mutex_);
   while (true) {
-    stored_.wait(lock, [&] { return ends_ || last_stored_ > done; });
+    stored_.wait(lock, [&] { return ends_ || !to_merge_.empty(); });
     if (ends_) return;
-    const int number = done = last_stored_;
+    const int number = to_merge_.front();
+    to_merge_.pop_front();
     lock.unlock();
     try {
       (void)session_->integrate(number);
@@ -88,6 +89,8 @@ void SessionService::integrate_stored() {
       // The state of the session says it, and whoever waits for the scan is told.
     }
     lock.lock();
+    merged_up_to_ = std::max(merged_up_to_, number);
+    merged_.notify_all();
   }
 }
 
@@ -169,11 +172,12 @@ HttpAnswer SessionService::add_scan(const HttpRequest& request) {
     throw HttpError(503, concat(most_waiting, " scans wait to be merged; try again later"));
   const int number = store(parse_scan_upload(request.body, upload_));
   {
-    const std::lock_guard lock(mutex_);
-    last_stored_ = std::max(last_stored_, number);
+    std::unique_lock lock(mutex_);
+    to_merge_.push_back(number);
+    stored_.notify_all();
+    if (waits) merged_.wait(lock, [&] { return ends_ || merged_up_to_ >= number; });
+    if (!waits || merged_up_to_ < number) return json_answer({{"number", number}}, 202);
   }
-  stored_.notify_all();
-  if (!waits) return json_answer({{"number", number}}, 202);
   return json_answer(session_scan_json(number, session_->integrate(number)), 201);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <thread>
 
 #include "vantage/server/http_server.hpp"
@@ -16,11 +17,13 @@ class SessionService {
  public:
   /// Opens the session; `run` shows it from then on and must outlive this.
   SessionService(const std::filesystem::path& folder, LiveRun& run);
-  /// Waits for the scan that is being merged; those that are stored are merged when the session opens again.
   ~SessionService();
   SessionService(const SessionService&) = delete;
   SessionService& operator=(const SessionService&) = delete;
 
+  /// Ends the work behind the requests, after the scan that is being merged; those that wait are merged when the
+  /// session opens again, and requests that wait for them hear that they are stored.
+  void stop();
   /// Adds everything below `/api/session`. This must outlive the server.
   void add_routes(HttpServer& server);
   [[nodiscard]] Session& session() { return *session_; }
@@ -58,8 +61,9 @@ class SessionService {
   std::shared_ptr<const std::string> mesh_;
 
   std::mutex mutex_;  // guards the rest
-  std::condition_variable stored_, plan_wanted_;
-  int last_stored_ = -1;
+  std::condition_variable stored_, merged_, plan_wanted_;
+  std::deque<int> to_merge_;
+  int merged_up_to_ = -1;
   bool wants_plan_ = false;
   std::optional<Evaluation> taken_;  // the view that somebody goes to
   bool ends_ = false;
