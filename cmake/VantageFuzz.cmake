@@ -27,10 +27,10 @@ set(io_files io/atomic_file io/text_reader io/ply io/polygon io/mesh_file io/mes
 vantage_fuzzed(file_readers core/geometry core/random
   map/block_pixels map/grid map/integrate map/integrate_exactly map/integrator map/lattice_projection map/scan_limits
   map/voxel_map map/voxel_ray sensor/range_camera sensor/range_image sensor/sight_line registration/scan_cloud
-  reconstruction/scan arm/arm_description ${io_files} io/nrrd io/map_file io/natural_order io/stored_run_files
+  reconstruction/scan arm/arm_description arm/urdf_check ${io_files} io/nrrd io/map_file io/natural_order io/stored_run_files
   doctor/pose_files experiments/run_outcome session/sealed_file session/session_scan session/skipped_views)
 # A robot's file ends in the planner, which is linked as it is.
-vantage_fuzzed(option_readers arm/arm arm/arm_collision arm/arm_description arm/arm_kinematics arm/joint_path
+vantage_fuzzed(option_readers arm/arm arm/arm_collision arm/arm_description arm/arm_kinematics arm/urdf_check arm/joint_path
   registration/fusion registration/scan_cloud reconstruction/error_options reconstruction/from_scans
   reconstruction/options reconstruction/reconstruction reconstruction/scan ${io_files} io/natural_order io/options
   io/robot_file io/scan_folder io/scan_bytes io/scan_planning_options io/pose_source io/organised_normals io/run_files

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 
+#include "vantage/arm/urdf_check.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -23,54 +24,6 @@ class ParserMessages : public console_bridge::OutputHandler {
  private:
   std::string first_;
 };
-
-// The XML parser, and the walk over links below, call themselves once per level.
-constexpr int deepest = 200;
-constexpr std::size_t most_links = 1000;
-
-/// The place after `end`, which is searched from `from` on; the end of the text where it does not come.
-std::size_t after(std::string_view text, std::string_view end, std::size_t from) {
-  const std::size_t at = text.find(end, from);
-  return at == std::string_view::npos ? text.size() : at + end.size();
-}
-
-/// The place after the tag that begins at `at`, whose attributes may hold any signs in quotes.
-std::size_t after_tag(std::string_view text, std::size_t at) {
-  char quote = 0;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    if (quote != 0) {
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '>') {
-      return at + 1;
-    }
-  }
-  return at;
-}
-
-/// Refuses XML whose elements are nested so deeply that the parser's recursion would need more stack than there is.
-void require_flat(std::string_view text, const std::string& name) {
-  require(text.find('\0') == std::string_view::npos, name, ": not a robot description (URDF): has a byte 0");
-  int depth = 0;
-  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-    const std::string_view rest = text.substr(at);
-    if (rest.starts_with("<!--")) {
-      at = after(text, "-->", at + 4);
-    } else if (rest.starts_with("<![CDATA[")) {
-      at = after(text, "]]>", at);
-    } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
-      at = after(text, ">", at);
-    } else {
-      const bool closes = rest.starts_with("</");
-      at = after_tag(text, at);
-      const bool is_empty = text[at - 1] == '>' && text[at - 2] == '/';
-      depth += closes ? -1 : is_empty ? 0 : 1;
-    }
-    require(depth <= deepest, name, ": not a robot description (URDF): is nested deeper than ", deepest, " levels");
-  }
-}
 
 urdf::ModelInterfaceSharedPtr parsed(std::string_view text, const std::string& name) {
   static std::mutex one_at_a_time;  // the parser has one place for its messages in the whole process
@@ -134,17 +87,6 @@ LinkShape shape_of(const urdf::Collision& collision, const std::string& place, c
   return shape;
 }
 
-/// Links own those after them; where these go round in a circle, they would for ever.
-struct LinksApart {
-  urdf::ModelInterface& model;
-  ~LinksApart() {
-    for (const auto& [ignored, link] : model.links_) {
-      link->child_links.clear();
-      link->child_joints.clear();
-    }
-  }
-};
-
 class Reader {
  public:
   Reader(const urdf::ModelInterface& model, const std::string& name, const std::string& sensor,
@@ -154,8 +96,7 @@ class Reader {
     require(goal != nullptr, name, ": there is no link '", sensor, "' to carry the sensor; the links are ", links());
     std::set<std::string> leads_to_sensor;
     for (urdf::LinkConstSharedPtr link = goal; link != nullptr; link = link->getParent()) {
-      require(leads_to_sensor.insert(link->name).second, name, ": the joints above link '", sensor,
-              "' go round in a circle through link '", link->name, "'");
+      leads_to_sensor.insert(link->name);
     }
     on_the_chain_ = std::move(leads_to_sensor);
     sensor_ = sensor;
@@ -241,12 +182,9 @@ class Reader {
 
 ArmDescription arm_from_urdf(std::string_view urdf, const std::string& name, const std::string& sensor,
                              const MeshExtent& mesh_extent) {
-  require_flat(urdf, name);
+  check_urdf(urdf, name);
   const urdf::ModelInterfaceSharedPtr model = parsed(urdf, name);
-  const LinksApart apart{*model};
   require(model->getRoot() != nullptr, name, ": has no root link");
-  require(model->links_.size() <= most_links, name, ": has ", model->links_.size(), " links, must have at most ",
-          most_links);
   return Reader(*model, name, sensor, mesh_extent).arm();
 }
 

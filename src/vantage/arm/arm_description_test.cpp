@@ -93,7 +93,10 @@ TEST(ArmDescription, RefusesJointsInACircle) {
   };
   EXPECT_EQ(error_of("<robot name='r'><link name='root'/><link name='a'/><link name='b'/><link name='tool'/>" +
                      joint("1", "b", "a") + joint("2", "a", "b") + joint("3", "b", "tool") + "</robot>"),
-            "a.urdf: the joints above link 'tool' go round in a circle through link 'b'");
+            "a.urdf: the joints above link 'a' go round in a circle");
+  EXPECT_EQ(error_of("<robot name='r'><link name='root'/><link name='a'/><link name='tool'/>" +
+                     joint("1", "root", "a") + joint("2", "a", "tool") + joint("3", "tool", "a") + "</robot>"),
+            "a.urdf: two joints have the child link 'a'");
 }
 
 // The XML parser calls itself once per level, and would run out of stack.
@@ -111,7 +114,7 @@ TEST(ArmDescription, RefusesWhatIsNestedTooDeeply) {
         concat("<link name='l", i, "'/><joint name='j", i, "' type='continuous'><axis xyz='0 0 1'/><parent link='l",
                i - 1, "'/><child link='l", i, "'/></joint>");
   }
-  EXPECT_EQ(error_of(chain + "</robot>", "l1000"), "a.urdf: has 1001 links, must have at most 1000");
+  EXPECT_EQ(error_of(chain + "</robot>", "l1000"), "a.urdf: has more than 999 joints");
 }
 
 }  // namespace
