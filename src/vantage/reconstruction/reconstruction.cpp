@@ -30,7 +30,7 @@ void merge(ModelSurface& surface, const Scan& scan, const PointCloud& points, co
 
 void Budget::validate() const {
   require(max_views >= 1, "max-views = ", max_views, ": must be at least 1");
-  require(max_distance > 0, "max-distance = ", max_distance, " m: must be positive");
+  require(max_distance > 0, "max-distance = ", max_distance, ": must be positive");
   require(max_time > 0, "max-time = ", max_time, " s: must be positive");
   require(max_fruitless_scans >= 1, "max-fruitless-scans = ", max_fruitless_scans, ": must be at least 1");
 }
@@ -104,7 +104,7 @@ std::string Reconstruction::why_stop(const ObjectModel& model, double seconds) c
   if (interrupted()) return "interrupted";
   if (scans >= budget.max_views) return concat("the budget of ", budget.max_views, " views is used up");
   if (model.scans.back().distance >= budget.max_distance) {
-    return concat("the budget of ", budget.max_distance, " m of travel is used up");
+    return concat("the budget of ", budget.max_distance, " of travel is used up");
   }
   if (seconds >= budget.max_time) return concat("the budget of ", budget.max_time, " s is used up");
   int fruitless = 0;

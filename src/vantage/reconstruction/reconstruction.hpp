@@ -30,7 +30,7 @@ struct ObjectModel {
 /// When to stop although there is more to see (spec, section 5).
 struct Budget {
   int max_views = 40;
-  double max_distance = std::numeric_limits<double>::infinity();  // metres
+  double max_distance = std::numeric_limits<double>::infinity();  // as moves are counted: metres, or radians of joints
   double max_time = std::numeric_limits<double>::infinity();      // seconds
   int max_fruitless_scans = 4;                                    // in a row, without a new occupied voxel
 
