@@ -20,7 +20,7 @@ struct Reading {
 
 std::vector<Reading> readings() {
   std::vector<Reading> all{{"figure 11: the sensor's rays, 10 cm"}};
-  all.push_back({"cells half as large, 33 per side", [](auto& o) { o.candidates = "cube:33:4.1:0.82:1.9"; }});
+  all.push_back({"cells of 17 cm, 25 per side", [](auto& o) { o.candidates = "cube:25:4.1:0.82:1.9"; }});
   all.push_back({.name = "error of 5 cm", .sigma = 0.05});
   all.push_back({.name = "error of 15 cm", .sigma = 0.15});
   all.push_back({.name = "error of 20 cm", .sigma = 0.20});
