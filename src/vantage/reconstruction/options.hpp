@@ -114,7 +114,8 @@ void describe(ReconstructOptions& o, Field&& field) {
   describe(static_cast<ErrorOptions&>(o), field);
   field("registration", o.registration, "", "pose of a scan: truth, none (the believed one) or icp");
   field("max-views", o.max_views, "", "stop after this many scans");
-  field("max-distance", o.max_distance, "", "stop when this much has been travelled, as moves are counted: metres, or radians of an arm's joints");
+  field("max-distance", o.max_distance, "",
+        "stop when this much has been travelled, as moves are counted: metres, or radians of an arm's joints");
   field("max-time", o.max_time, "s", "stop after this long");
   field("stop-occplane", o.stop_occplane, "voxels", "stop when no view sees more occplane voxels than this");
   field("deadline", o.deadline, "ms",
