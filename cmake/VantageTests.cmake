@@ -105,7 +105,8 @@ if(VANTAGE_APPS)
     ${VANTAGE_SHARED_DATA})
   add_test(NAME session.http COMMAND ${http_test} 0 Description Safety Kills SameAsPlan)
   set_tests_properties(session.http PROPERTIES LABELS default TIMEOUT 480)
-  # By hand with 60 the load lasts the minute that docs/sessions.md tells of, and the tray is fed too.
+  # By hand VANTAGE_LOAD_SECONDS=60 makes it the minute that docs/sessions.md tells of; SameAsPlan.test_ur5_tray is by
+  # hand too.
   add_test(NAME session.http.slow COMMAND ${http_test} 10 Load SameAsPlan.test_apc_shelf)
   set_tests_properties(session.http.slow PROPERTIES LABELS slow TIMEOUT 2400)
 endif()

@@ -1,7 +1,8 @@
 """What tests of a session over HTTP share: `vantage serve`, requests, docs/openapi.yaml. It takes its arguments off the
-command line: VANTAGE OPENAPI SOURCE SHARED_DATA SECONDS_OF_LOAD."""
+command line: VANTAGE OPENAPI SOURCE SHARED_DATA SECONDS_OF_LOAD (the environment's VANTAGE_LOAD_SECONDS goes before the last)."""
 import http.client
 import json
+import os
 import pathlib
 import re
 import resource
@@ -19,6 +20,7 @@ import yaml
 TOKEN = "0123456789-of-the-test"
 VANTAGE, OPENAPI, SOURCE, DATA = (pathlib.Path(sys.argv.pop(1)) for _ in range(4))
 LOAD = float(sys.argv.pop(1))
+LOAD = float(os.environ.get("VANTAGE_LOAD_SECONDS", LOAD))
 SMALL = ["--voxel", "0.08", "--scene", "51,51,51", "--enclosure", "13,13,13", "--candidates", "sphere:20:2"]
 BOX = "--box=0,0,0,1.04,1.04,1.04"
 BOUNDARY = "a-boundary-that-is-in-no-scan"
