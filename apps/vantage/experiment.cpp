@@ -77,6 +77,7 @@ ExperimentReport write_report(const Request& request, const std::vector<Experime
   const ExperimentReport outcomes = only(report, ExperimentContent::results);
   const ExperimentReport times = only(report, ExperimentContent::times);
   write_file_atomically(folder / "report.html", experiment_page(outcomes.parts.empty() ? times : outcomes));
+  if (!outcomes.parts.empty()) write_file_atomically(folder / "print.html", html(outcomes));
   write_file_atomically(folder / "report.json", json(outcomes).dump(2) + "\n");
   if (!times.parts.empty()) {
     write_file_atomically(folder / "timings.html", experiment_page(times));

@@ -176,14 +176,14 @@ ExperimentTable table_of(const Comparison& comparison, const Measures& methods, 
     table.columns.push_back({fmt::format("views to {:.0f} %", 100 * goal), 1});
   const std::string& baseline = comparison.methods.front();
   table.columns.push_back({fmt::format("views to 99 % more than {}", baseline), 2, Kind::difference});
+  table.columns.push_back({"runs that miss 99 %", 1});
+  table.columns.push_back({"mean rank", 2});
   table.columns.push_back({"distance to 99 % [m]", 1});
   table.columns.push_back({fmt::format("distance more than {} [m]", baseline), 1, Kind::difference});
-  table.columns.push_back({"runs that miss 99 %", 1});
   table.columns.push_back({"area under curve [%]", 2});
   table.columns.push_back({"least overlap", 2});
   table.columns.push_back({"mean overlap", 2});
   table.columns.push_back({"accuracy [mm]", 2});
-  table.columns.push_back({"mean rank", 2});
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const std::vector<CompareMeasures>& runs = methods[m];
     const std::vector<CompareMeasures>& base = methods.front();
@@ -197,18 +197,33 @@ ExperimentTable table_of(const Comparison& comparison, const Measures& methods, 
       return paired_difference(pick(base, member), pick(runs, member));
     };
     row.cells.push_back(difference(views_to_end));
+    row.cells.emplace_back(estimate(pick(runs, [](const CompareMeasures& c) { return c.missed; })));
+    row.cells.emplace_back(fmt::format("{:.2f}", ranks[m]));
     row.cells.emplace_back(estimate(pick(runs, distance)));
     row.cells.push_back(difference(distance));
-    row.cells.emplace_back(estimate(pick(runs, [](const CompareMeasures& c) { return c.missed; })));
     row.cells.emplace_back(estimate(pick(runs, [](const CompareMeasures& c) { return c.area_under_curve; })));
     const std::vector<double> overlaps = pick(runs, [](const CompareMeasures& c) { return c.min_overlap; });
     row.cells.emplace_back(fmt::format("{:.3f}", *std::min_element(overlaps.begin(), overlaps.end())));
     row.cells.emplace_back(estimate(pick(runs, [](const CompareMeasures& c) { return c.mean_overlap; })));
     row.cells.emplace_back(estimate(pick(runs, [](const CompareMeasures& c) { return 1000 * c.accuracy; })));
-    row.cells.emplace_back(fmt::format("{:.2f}", ranks[m]));
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+/// Two tables that fit on a page: views with ranks, and the way with overlap and accuracy.
+void add_tables(std::vector<ExperimentReport::Part>& parts, const ExperimentTable& all) {
+  constexpr std::ptrdiff_t of_views = CompareMeasures::goals.size() + 3;
+  ExperimentTable views = all;
+  ExperimentTable way = all;
+  way.name += "-way";
+  way.title += ": way, overlap, accuracy";
+  views.columns.erase(views.columns.begin() + of_views, views.columns.end());
+  for (auto& row : views.rows) row.cells.erase(row.cells.begin() + of_views, row.cells.end());
+  way.columns.erase(way.columns.begin(), way.columns.begin() + of_views);
+  for (auto& row : way.rows) row.cells.erase(row.cells.begin(), row.cells.begin() + of_views);
+  parts.emplace_back(std::move(views));
+  parts.emplace_back(std::move(way));
 }
 
 /// Coverage after every scan of the methods that cover fastest, the baseline among them.
@@ -286,13 +301,13 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
       "{} starts with standard deviation; differences with 95 % intervals, paired by start. A run that misses a goal "
       "counts with its budget of {} views. Ranks by views to 99 %, over objects and starts.",
       comparison.conditions, starts, comparison.budget);
-  parts.emplace_back(std::move(all));
+  add_tables(parts, all);
   parts.emplace_back(std::move(figure));
   for (std::size_t k = 0; k < objects.size(); ++k) {
     ExperimentTable table = table_of(comparison, objects[k], mean_ranks({objects[k]}));
     table.name = "compare-" + comparison.objects[k]->name();
     table.title = comparison.objects[k]->name();
-    parts.emplace_back(std::move(table));
+    add_tables(parts, table);
   }
   return parts;
 }

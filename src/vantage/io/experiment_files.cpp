@@ -115,12 +115,13 @@ Json estimate_json(const Estimate& value) {
 
 Json table_json(const ExperimentTable& table) {
   Json columns = {table.row_title}, paper_columns = Json::array();
-  std::vector<bool> wide;  // columns that take a mean, a standard deviation and the paper's value
+  std::vector<bool> wide;  // columns that take a mean, a standard deviation or an interval, and the paper's value
+  using Kind = ExperimentTable::Column::Kind;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     columns.push_back(table.columns[k].title);
     wide.push_back(has_estimates(table, k));
     if (!wide.back()) continue;
-    columns.push_back("± sd");
+    columns.push_back(table.columns[k].kind == Kind::difference ? "95 % interval" : "± sd");
     paper_columns.push_back(columns.size());
     columns.push_back("paper");
   }
@@ -133,7 +134,14 @@ Json table_json(const ExperimentTable& table) {
       cells.push_back(value != nullptr ? number(value->mean) : text != nullptr ? Json(*text) : Json(nullptr));
       numbers_of_row.push_back(value != nullptr ? estimate_json(*value) : Json(nullptr));
       if (!wide[k]) continue;
-      cells.push_back(value != nullptr ? number(value->sd) : Json(nullptr));
+      if (value == nullptr) {
+        cells.push_back(nullptr);
+      } else if (table.columns[k].kind == Kind::difference) {
+        const int decimals = table.columns[k].decimals;
+        cells.push_back(concat("[", readable(value->low, decimals), ", ", readable(value->high, decimals), "]"));
+      } else {
+        cells.push_back(number(value->sd));
+      }
       cells.push_back(value != nullptr && value->published ? number(*value->published) : Json(nullptr));
     }
     rows.push_back(std::move(cells));

@@ -112,9 +112,9 @@ TEST(ExperimentReport, WritesTheDocumentOfTheViewer) {
   EXPECT_EQ(document["version"], 1);
   const auto& table = document["tables"][0];
   EXPECT_EQ(table["columns"].dump(),
-            R"(["object","views","± sd","paper","saved [m]","± sd","paper","remark, if any"])");
-  EXPECT_EQ(table["rows"][0].dump(), R"(["mug",9.0,1.0,8.0,-0.5,0.0,null,"a \"good\" one"])");
-  EXPECT_EQ(table["rows"][1].dump(), R"(["bunny",null,null,null,-0.5,0.0,null,null])");
+            R"(["object","views","± sd","paper","saved [m]","95 % interval","paper","remark, if any"])");
+  EXPECT_EQ(table["rows"][0].dump(), R"(["mug",9.0,1.0,8.0,-0.5,"[−0.50, −0.50]",null,"a \"good\" one"])");
+  EXPECT_EQ(table["rows"][1].dump(), R"(["bunny",null,null,null,-0.5,"[−0.50, −0.50]",null,null])");
   EXPECT_EQ(table["paper_columns"].dump(), "[3,6]");
   EXPECT_EQ(table["estimates"][0][0]["runs"], 3);
   EXPECT_EQ(table["estimates"][0][0]["in_band"], false);
