@@ -174,12 +174,11 @@ ExperimentTable table_of(const Comparison& comparison, const Measures& methods, 
   table.row_title = "utility";
   for (const double goal : CompareMeasures::goals)
     table.columns.push_back({fmt::format("views to {:.0f} %", 100 * goal), 1});
-  const std::string& baseline = comparison.methods.front();
-  table.columns.push_back({fmt::format("views to 99 % more than {}", baseline), 2, Kind::difference});
-  table.columns.push_back({"runs that miss 99 %", 1});
+  table.columns.push_back({"difference at 99 %", 2, Kind::difference});
+  table.columns.push_back({"missed", 1});
   table.columns.push_back({"mean rank", 2});
   table.columns.push_back({"distance to 99 % [m]", 1});
-  table.columns.push_back({fmt::format("distance more than {} [m]", baseline), 1, Kind::difference});
+  table.columns.push_back({"difference [m]", 1, Kind::difference});
   table.columns.push_back({"area under curve [%]", 2});
   table.columns.push_back({"least overlap", 2});
   table.columns.push_back({"mean overlap", 2});
@@ -252,7 +251,7 @@ LineChart coverage_chart(const Comparison& comparison, const std::string& object
       series.x.push_back(static_cast<double>(scan));
       series.y.push_back(covered.mean);
       series.low.push_back(covered.low);
-      series.high.push_back(covered.high);
+      series.high.push_back(std::min(covered.high, 100.0));
     }
     chart.series.push_back(std::move(series));
   }
@@ -298,9 +297,10 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
   all.note = fmt::format(
       "{} Views, distances and misses are summed over the objects, the rest are means (least overlap: the least). "
       "Means over "
-      "{} starts with standard deviation; differences with 95 % intervals, paired by start. A run that misses a goal "
+      "{} starts with standard deviation; differences from {} with 95 % intervals, paired by start; missed: runs that "
+      "do not come to 99 %. A run that misses a goal "
       "counts with its budget of {} views. Ranks by views to 99 %, over objects and starts.",
-      comparison.conditions, starts, comparison.budget);
+      comparison.conditions, starts, comparison.methods.front(), comparison.budget);
   add_tables(parts, all);
   parts.emplace_back(std::move(figure));
   for (std::size_t k = 0; k < objects.size(); ++k) {
