@@ -3,6 +3,7 @@ import { spawn, type ChildProcess } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
+/** The program that was built, or the one that VANTAGE names. */
 export const PROGRAM = process.env["VANTAGE"] ?? fileURLToPath(new URL("../../build/release/vantage", import.meta.url));
 
 export class Program {

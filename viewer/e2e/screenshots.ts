@@ -1,10 +1,10 @@
 /**
- * The pictures of the page in docs/, made from runs of the program itself:
+ * The pictures in docs/, made from runs of the program itself, which must be built:
  *
  *     npm run screenshots [-- REPORT [EXPERIMENT]]
  *
- * REPORT is the report.html of a reconstruction; without it the mug is scanned first (the program must be built).
- * EXPERIMENT is the report.html of an experiment; without it that picture is left as it is.
+ * REPORT is the report.html of a reconstruction, EXPERIMENT that of an experiment; without them the mug is scanned and
+ * figure 11 repeated with few seeds first.
  */
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, statSync } from "node:fs";
@@ -14,16 +14,20 @@ import { fileURLToPath } from "node:url";
 import type { Page } from "playwright-core";
 import { launch } from "./browser.ts";
 import { openReport, settle, type PageOptions } from "./pages.ts";
+import { PROGRAM } from "./program.ts";
 
 const root = fileURLToPath(new URL("../..", import.meta.url)).replace(/\/$/, "");
 const MAX_BYTES = 300_000;
 
-function scanMug(): string {
-  const folder = mkdtempSync(join(tmpdir(), "vantage-mug-"));
-  const options = ["--positioning-error", "0.05,0.05,0.05", "--registration", "icp", "--seed", "3"];
-  execFileSync(join(root, "vantage"), ["reconstruct", "mug", ...options, "--out", folder], { stdio: "inherit" });
+/** Runs the program with an output folder of its own and gives the report it leaves there. */
+function reportOf(...words: string[]): string {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-screenshots-"));
+  execFileSync(PROGRAM, [...words, "--out", folder], { stdio: "inherit" });
   return join(folder, "report.html");
 }
+
+const scanMug = () =>
+  reportOf("reconstruct", "mug", "--positioning-error", "0.05,0.05,0.05", "--convolve", "samples", "--registration", "icp", "--seed", "3");
 
 type Set = (page: Page) => Promise<unknown>;
 const middle = (page: Page) => page.evaluate(() => Math.floor((window.vantage!.session.run.scans.length - 1) / 2));
@@ -32,7 +36,7 @@ const goTo = (page: Page, step: number) => page.evaluate((k) => window.vantage!.
 
 /** The first screen as it opens, but at a moment when there is still something to plan. */
 const first: Set = async (page) => {
-  await goTo(page, Math.min(2, await middle(page)));
+  await goTo(page, Math.min(3, await middle(page)));
 };
 
 /** In the middle: cut open, the slice through all labels, quality as colour. */
@@ -81,18 +85,18 @@ const result: Set = async (page) => {
 };
 
 const reportPath = resolve(process.argv[2] ?? scanMug());
-const shots: [string, string | undefined, PageOptions, Set][] = [
+const experimentPath = resolve(process.argv[3] ?? reportOf("experiment", "figure11", "--seeds", "6"));
+const shots: [string, string, PageOptions, Set][] = [
   ["viewer.png", reportPath, { scheme: "dark" }, first],
   ["viewer-slice.png", reportPath, { scheme: "light" }, inside],
   ["viewer-view.png", reportPath, { scheme: "light" }, picked],
   ["viewer-result.png", reportPath, { scheme: "dark" }, result],
   ["viewer-phone.png", reportPath, { width: 390, height: 844, touch: true, scheme: "light" }, first],
-  ["viewer-experiment.png", process.argv[3] && resolve(process.argv[3]), { scheme: "light", height: 720 }, async () => {}],
+  ["viewer-experiment.png", experimentPath, { scheme: "light", height: 720 }, async () => {}],
 ];
 
 const browser = await launch();
 for (const [name, path, options, prepare] of shots) {
-  if (!path) continue;
   const { page, problems } = await openReport(browser, path, { width: 1280, height: 720, ...options });
   await prepare(page);
   await settle(page);

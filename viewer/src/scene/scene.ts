@@ -11,6 +11,7 @@ import { CameraLayer } from "./cameras.ts";
 import { disposeTree } from "./geometry.ts";
 import { buildFrustum, buildGhost, buildNormals, buildPath, buildSlice, buildSurface, CloudLayer } from "./overlays.ts";
 import { Viewport } from "./viewport.ts";
+import { sunlight } from "./voxel_light.ts";
 import { VoxelLayer } from "./voxels.ts";
 
 const MODES = { hide: 0, fade: 1, show: 2 } as const;
@@ -159,7 +160,9 @@ export class SceneView {
       else if (state.coloring === "normal") rgb = known ? normalColor(nx, ny, nz) : GREY;
       else if (state.coloring === "scan") rgb = firstScan[v] === NEVER ? GREY : scanColor(firstScan[v], scans);
       if (state.layers.seen && !this.seen[v]) rgb = GREY;
-      return { rgb, shade: known ? 0.5 + 0.5 * Math.max(0, -0.35 * nx - 0.55 * ny + 0.75 * nz) : null };
+      // Where colours are numbers, the sun must not bleach them.
+      const light = Math.min(state.coloring === "label" ? Infinity : 1, sunlight(nx, ny, nz));
+      return { rgb, shade: known ? light : null };
     };
   }
 

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { blocksWithFaces, type FaceList } from "../model/faces.ts";
 import type { Vec3 } from "../data/run.ts";
-import { lightOf, SHADE, type VoxelColor } from "./voxel_light.ts";
+import { lightOf, lit, SHADE, type VoxelColor } from "./voxel_light.ts";
 
 // A point is as wide as a voxel seen across its edges, so that no gaps open between neighbours. Those of which no face
 // looks at the eye are put where nothing is drawn.
@@ -47,7 +47,7 @@ export class VoxelPoints {
       const { rgb, shade } = color(v);
       const shown = SHADE.filter((_, d) => sides[i] & (1 << d));
       const light = lightOf(shade, shown.reduce((sum, s) => sum + s, 0) / shown.length);
-      for (let c = 0; c < 3; ++c) tints[4 * i + c] = rgb[c] * light;
+      for (let c = 0; c < 3; ++c) tints[4 * i + c] = lit(rgb[c], light);
       tints[4 * i + 3] = alpha;
     });
     const geometry = new THREE.BufferGeometry();

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { faceAxes, facingCount, visibleFaces, type FaceList } from "../model/faces.ts";
 import type { Grid, Vec3 } from "../data/run.ts";
-import { lightOf, NOOK, SHADE, type VoxelColor } from "./voxel_light.ts";
+import { lightOf, lit, NOOK, SHADE, type VoxelColor } from "./voxel_light.ts";
 import { VoxelPoints } from "./voxel_points.ts";
 
 const vertexShader = /* glsl */ `
@@ -84,7 +84,7 @@ class FaceMesh {
       const light = lightOf(shade, SHADE[direction]);
       for (let k = 0; k < 4; ++k) {
         const here = light * NOOK[(free[f] >> (2 * k)) & 3];
-        for (let c = 0; c < 3; ++c) tints[16 * f + 4 * k + c] = rgb[c] * here;
+        for (let c = 0; c < 3; ++c) tints[16 * f + 4 * k + c] = lit(rgb[c], here);
         tints[16 * f + 4 * k + 3] = alpha;
       }
     }

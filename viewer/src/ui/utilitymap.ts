@@ -189,12 +189,14 @@ export function utilityMap(session: Session): HTMLElement {
     after.element.hidden = !plan.convolved;
     if (plan.convolved) {
       const convolved = plan.convolved;
-      after.draw("expected utility (convolved)", layout, plan, convolved, session.highest(convolved, plan), marks);
+      after.draw("convolved", layout, plan, convolved, session.highest(convolved, plan), marks);
     }
     const out = plan.infeasible.reduce((n, r) => n + (r ? 1 : 0), 0);
+    const unknown = plan.utility.reduce((n, u, i) => n + (Number.isNaN(u) && !plan.infeasible[i] ? 1 : 0), 0);
+    const striped = [out ? "infeasible" : "", unknown ? "not evaluated" : ""].filter(Boolean).join(" or ");
     const feasible = `${candidates.count - out} of ${candidates.count} candidates feasible`;
     const choiceText = plan.chosen === null ? "no view chosen" : `view ${plan.chosen} ${planned!.made === "after" ? "is next" : "was the last"}`;
-    note.textContent = `${planned!.made === "after" ? "After" : "Before"} scan ${state.step + 1}: ${choiceText}. ${feasible}${out ? "; striped: infeasible" : ""}.`;
+    note.textContent = `${planned!.made === "after" ? "After" : "Before"} scan ${state.step + 1}: ${choiceText}. ${feasible}${striped ? `; striped: ${striped}` : ""}.`;
   };
   store.subscribe(update);
   theme.subscribe(update);
