@@ -24,7 +24,7 @@ afterEach(async () => {
 
 const open = (): Promise<Watched> => openPage(browser, server.url, { offline: false, width: 800, height: 560 });
 const scans = (page: Page, count: number) =>
-  page.waitForFunction((n) => window.vantage!.session.run.scans.length === n, count);
+  page.waitForFunction((n) => window.vantage?.session?.run.scans.length === n, count);
 const own = (requests: string[]) => requests.every((r) => r.startsWith(`${server.url}api/`));
 
 describe("the live page", () => {
@@ -87,6 +87,31 @@ describe("the live page", () => {
     server.scan();
     await page.context().setOffline(false);
     await page.waitForSelector('.connection[data-state="live"]');
+    await scans(page, 2);
+  });
+
+  it.each([
+    ["<html>", "/api/run: is not JSON"],
+    ['{"format": "vantage-run", "version": 1}', "grid: must be an object"],
+  ])("says what is wrong with what the server sends, and shows the run when it is right again: %s", async (broken, problem) => {
+    server.scan();
+    server.broken = broken;
+    const page = await (await browser.newContext()).newPage();
+    page.setDefaultTimeout(180_000);
+    await page.goto(server.url);
+    await page.waitForFunction((text) => document.body.textContent!.includes(text), `No run to show yet: ${problem}`);
+    server.broken = null;
+    await scans(page, 1);
+    expect(await page.textContent(".connection")).toBe("live");
+    // Later on what was shown stays, with the reason beside it.
+    server.broken = broken;
+    await page.evaluate(() => window.vantage!.live!.wake());
+    await server.stop();
+    await server.start();
+    server.scan();
+    await page.waitForFunction((text) => document.querySelector(".connection")!.textContent!.includes(text), problem);
+    expect(await page.locator("#table tbody tr").count()).toBe(1);
+    server.broken = null;
     await scans(page, 2);
   });
 

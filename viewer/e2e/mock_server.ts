@@ -8,6 +8,8 @@ export class MockServer {
   readonly posts: { action: string; body: Json }[] = [];
   /** Answer to the next POST where not 202. */
   refusal: string | null = null;
+  /** What `/api/run` answers instead of the run. */
+  broken: string | null = null;
   port = 0;
   private readonly scans: Json[];
   private shown = 0;
@@ -97,7 +99,7 @@ export class MockServer {
       case "/":
         return void send(200, "text/html", this.page);
       case "/api/run":
-        return void send(200, "application/json", JSON.stringify(this.document()));
+        return void send(200, "application/json", this.broken ?? JSON.stringify(this.document()));
       case "/api/events":
         response.writeHead(200, { "Content-Type": "text/event-stream", "Cache-Control": "no-store" });
         response.write(`event: hello\ndata: ${JSON.stringify({ run: this.name, revision: this.revision })}\n\n`);

@@ -131,6 +131,26 @@ describe("vantage serve", () => {
     await scans(page, summary()["scans"].length);
   });
 
+  it("shows how far an experiment is, then its report", async () => {
+    const compare = join(folder, "compare");
+    for (const name of ["runs", "times"]) mkdirSync(join(compare, name), { recursive: true });
+    const url = await start("serve", compare, "--port", "0").url();
+    const watched = await open(url);
+    const { page } = watched;
+    await page.waitForFunction(() => document.querySelector("main")?.textContent?.includes("0 runs are finished"));
+    const words = ["experiment", "compare", "--utilities", "combined,gain", "--shapes", "sphere", "--starts", "2", "--quiet", "--out", compare];
+    expect(await Program.start(...words).ended).toBe(0);
+    await page.waitForFunction(() => document.querySelector("h1")?.textContent === "compare");
+    expect(await page.locator(".chart").count()).toBeGreaterThan(0);
+    const { tables } = JSON.parse(readFileSync(join(compare, "report.json"), "utf8")) as Json;
+    const shown = await page.locator("table").first().locator("tbody tr").nth(1).locator("td").first().textContent();
+    const { mean, sd } = tables[0].estimates[1][0];
+    const { decimals } = tables[0].measures[0];
+    expect(shown).toBe(`${mean.toFixed(decimals)} ± ${sd.toFixed(decimals)}`);
+    ownOnly(watched, url);
+    expect(watched.problems).toEqual([]);
+  });
+
   it("lets in only who knows the token", async () => {
     const url = await start("serve", mug, "--port", "0", "--token", "a-token-for-the-test").url();
     const { origin } = new URL(url);

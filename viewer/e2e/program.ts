@@ -9,7 +9,8 @@ export const PROGRAM = process.env["VANTAGE"] ?? fileURLToPath(new URL("../../bu
 export class Program {
   /** What it said on standard error. */
   text = "";
-  private readonly ended: Promise<number | null>;
+  /** Its exit code. */
+  readonly ended: Promise<number | null>;
 
   private constructor(private readonly child: ChildProcess) {
     this.ended = new Promise((done) => child.on("exit", (code) => done(code)));

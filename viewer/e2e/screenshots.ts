@@ -27,7 +27,7 @@ function reportOf(...words: string[]): string {
 }
 
 const scanMug = () =>
-  reportOf("reconstruct", "mug", "--positioning-error", "0.05,0.05,0.05", "--convolve", "samples", "--registration", "icp", "--seed", "3");
+  reportOf("reconstruct", "mug", "--positioning-error", "0.05,0.05,0.05", "--convolve", "normalised", "--registration", "icp", "--seed", "3");
 
 type Set = (page: Page) => Promise<unknown>;
 const middle = (page: Page) => page.evaluate(() => Math.floor((window.vantage!.session.run.scans.length - 1) / 2));
@@ -41,7 +41,7 @@ const first: Set = async (page) => {
 
 /** In the middle: cut open, the slice through all labels, quality as colour. */
 const inside: Set = async (page) => {
-  await goTo(page, Math.max(1, (await middle(page)) - 1));
+  await goTo(page, await middle(page));
   await page.evaluate(() => {
     const { session, scene } = window.vantage!;
     const { store } = session;

@@ -33,4 +33,12 @@ describe("DetailChooser", () => {
     chooser.rest();
     expect(chooser.detail.block).toBe(0);
   });
+
+  it("stays where it is held", () => {
+    const chooser = new DetailChooser();
+    chooser.hold(2);
+    frames(chooser, 50, 500);
+    chooser.rest();
+    expect(chooser.detail).toEqual({ block: 2, pixels: 1 });
+  });
 });

@@ -27,13 +27,21 @@ export class DetailChooser {
   private step = 0;
   private last: number[] = [];
   private movement: number[] = [];
+  private held = false;
 
   get detail(): Detail {
     return LADDER[this.step];
   }
 
+  /** Stays at a step whatever the times, for measurements. */
+  hold(step: number): void {
+    this.step = step;
+    this.held = true;
+  }
+
   /** A frame of a movement took so many milliseconds to draw. True where the next one is drawn otherwise. */
   frame(milliseconds: number): boolean {
+    if (this.held) return false;
     this.movement.push(milliseconds);
     this.last.push(milliseconds);
     if (this.last.length > WINDOW) this.last.shift();

@@ -29,7 +29,7 @@ export class Viewport {
   private readonly restRatio: number;
   private readonly movingRatio: number;
   private pending = false;
-  private readonly chooser = new DetailChooser();
+  readonly chooser = new DetailChooser();
   /** Drawn with the pixels of a moving scene; the first frame too, so that it comes soon. */
   private quick = true;
   private dragging = false;
