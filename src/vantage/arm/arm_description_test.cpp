@@ -99,6 +99,13 @@ TEST(ArmDescription, RefusesJointsInACircle) {
             "a.urdf: two joints have the child link 'a'");
 }
 
+// The parser of URDF hands bad values to printf() as a format.
+TEST(ArmDescription, RefusesFormatsInValues) {
+  EXPECT_THAT(error_of(urdf_with("continuous'><origin xyz='0 0 %n%n%s'/><axis xyz='0 0 1'/>")),
+              HasSubstr("the sign % stands in an element"));
+  EXPECT_EQ(error_of("<!-- 100 % --> " + urdf_with("continuous'><axis xyz='0 0 1'/>")), "no error");
+}
+
 // The XML parser calls itself once per level, and would run out of stack.
 TEST(ArmDescription, RefusesWhatIsNestedTooDeeply) {
   for (const int levels : {250, 1'000'000}) {

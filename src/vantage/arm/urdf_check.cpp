@@ -35,7 +35,8 @@ std::size_t after_tag(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Refuses XML whose elements are nested so deeply that the parser's recursion would need more stack than there is.
+/// Refuses XML whose elements are nested so deeply that the parser's recursion would need more stack than there is, or
+/// that has what its messages stumble over.
 void require_flat(std::string_view text, const std::string& name) {
   require(text.find('\0') == std::string_view::npos, name, ": not a robot description (URDF): has a byte 0");
   int depth = 0;
@@ -49,7 +50,11 @@ void require_flat(std::string_view text, const std::string& name) {
       at = after(text, ">", at);
     } else {
       const bool closes = rest.starts_with("</");
+      const std::size_t begin = at;
       at = after_tag(text, at);
+      // The parser hands bad values on to printf() as a format.
+      require(text.substr(begin, at - begin).find('%') == std::string_view::npos, name,
+              ": not a robot description (URDF): the sign % stands in an element; only comments may have it");
       const bool is_empty = text[at - 1] == '>' && text[at - 2] == '/';
       depth += closes ? -1 : is_empty ? 0 : 1;
     }
