@@ -85,7 +85,7 @@ const result: Set = async (page) => {
 };
 
 const reportPath = resolve(process.argv[2] ?? scanMug());
-const experimentPath = resolve(process.argv[3] ?? reportOf("experiment", "figure11", "--seeds", "6"));
+const experimentPath = resolve(process.argv[3] ?? reportOf("experiment", "figure11", "--seeds", "5"));
 const shots: [string, string, PageOptions, Set][] = [
   ["viewer.png", reportPath, { scheme: "dark" }, first],
   ["viewer-slice.png", reportPath, { scheme: "light" }, inside],
