@@ -684,7 +684,7 @@ def simulate(object: Union[str, TriangleMesh], on_scan: Optional[Callable[[ScanR
         least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
         registration = truth: pose of a scan: truth, none (the believed one) or icp
         max_views = 40: stop after this many scans
-        max_distance = none [m]: stop when this much has been travelled
+        max_distance = none: stop when this much has been travelled, as moves are counted: metres, or radians of an arm's joints
         max_time = none [s]: stop after this long
         stop_occplane = 0 [voxels]: stop when no view sees more occplane voxels than this
         deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline"""
