@@ -57,7 +57,8 @@ PictureScene views_scene(const ReportData& data) {
     if (before != nullptr)
       add_path(scene, sphere ? arc(*before, places.back(), center) : straight, 2.2, palette::vermillion);
     before = &places.back();
-    scene.badges.push_back({center + 1.09 * (places.back() - center), scan.scan, paint});
+    // Numbered as the page does it: the first scan is 1.
+    scene.badges.push_back({center + 1.09 * (places.back() - center), scan.scan + 1, paint});
   }
   return scene;
 }

@@ -160,7 +160,7 @@ TEST(StaticReport, ViewsShowEveryScanAndTheOtherCandidates) {
   SmallRun run;
   const PictureScene scene = views_scene(run.data);
   EXPECT_EQ(scene.badges.size(), 2U);
-  EXPECT_EQ(scene.badges[1].number, 1);
+  EXPECT_EQ(scene.badges[1].number, 2);
   EXPECT_EQ(scene.dots.size(), 18U);
 }
 
