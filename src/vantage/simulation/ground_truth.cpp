@@ -4,31 +4,15 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <nanoflann.hpp>
 #include <tuple>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/sensor/sight_line.hpp"
+#include "vantage/simulation/point_tree.hpp"
 
 namespace vantage {
 namespace {
-
-/// A point cloud as nanoflann reads it.
-struct CloudPoints {
-  const std::vector<Vec3>* points;
-
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points->size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return (*points)[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;  // nanoflann computes it
-  }
-};
-using PointTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, CloudPoints>, CloudPoints, 3>;
 
 double share(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
@@ -145,7 +129,7 @@ Accuracy GroundTruth::accuracy(const PointCloud& cloud) const {
 Completeness GroundTruth::completeness(const PointCloud& cloud, double tolerance) const {
   require(tolerance > 0 && std::isfinite(tolerance), "completeness: tolerance = ", tolerance, " m: must be positive");
   if (cloud.points.empty()) return {};
-  const CloudPoints points{&cloud.points};
+  const TreePoints points{&cloud.points};
   const PointTree tree(3, points);
   std::vector<std::uint8_t> is_near(samples_.size());
   parallel_for(samples_.size(), [&](std::size_t i) {

@@ -2,31 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/simulation/mesh_tools.hpp"
+#include "vantage/simulation/point_tree.hpp"
 
 namespace vantage {
-namespace {
-
-struct Points {
-  const std::vector<Vec3>* points;
-
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points->size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return (*points)[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;  // nanoflann computes it
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3>;
-
-}  // namespace
-
 void PointMetric::validate() const {
   require(samples > 0, "samples = ", samples, ": must be positive");
   require(tolerance > 0 && std::isfinite(tolerance), "tolerance = ", tolerance, " m: must be positive");
@@ -42,8 +24,8 @@ PointCoverage::PointCoverage(const TriangleMesh& mesh, const PointMetric& metric
 
 void PointCoverage::add(const std::vector<Vec3>& points) {
   if (points.empty()) return;
-  const Points cloud{&points};
-  const Tree tree(3, cloud);
+  const TreePoints cloud{&points};
+  const PointTree tree(3, cloud);
   parallel_for(samples_.size(), [&](std::size_t i) {
     if (is_near_[i] != 0) return;
     std::uint32_t nearest = 0;  // nanoflann's index type
