@@ -219,7 +219,8 @@ std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& curre
                                moves.normalised_costs(ranked),
                                scanned_,
                                options_.seed,
-                               ranked};
+                               ranked,
+                               static_cast<int>(set_aside_.size())};
   return settled(std::move(plan), moves, problem);
 }
 
