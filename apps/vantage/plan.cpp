@@ -52,6 +52,7 @@ void plan(Request& request) {
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
   load_robot(request.options.planning, request.given);
+  request.options.validate_without_commands();
   const ScanSet set = open_scans(request.scans, request.options.reading);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
@@ -67,7 +68,7 @@ void plan(Request& request) {
   for (const PendingScan& each : pending) {
     if (was_interrupted()) break;
     const Scan scan = each.read();
-    const ScanRecord& record = scans.add(each.name, scan, each.believed, *registrar);
+    const ScanRecord& record = scans.add({.name = each.name}, scan, each.believed, *registrar);
     if (!request.program.quiet) print_record(stderr, record);
     if (folder) folder->add_scan(record, scan, scans.model(), nullptr);
   }

@@ -19,12 +19,14 @@ using NextView = std::pair<std::optional<Plan>, std::string>;  // and why there 
 class GrowingModel {
  public:
   GrowingModel(const ScanPlanningOptions& options, const ScanScene& scene)
-      : options_(options), scene_(scene), registrar_(make_registrar(options.scene, scene)), scans_(scene) {}
+      : options_(options), scene_(scene), registrar_(make_registrar(options.scene, scene)), scans_(scene) {
+    if (const auto learner = options.planning.learner_options()) scans_.learner.emplace(*learner);
+  }
 
-  ScanRecord add(const std::string& name, const Scan& scan, const View& believed) {
+  ScanRecord add(const ScanOrigin& origin, const Scan& scan, const View& believed) {
     if (const auto* image = std::get_if<ImageScan>(&scan)) camera_ = image->image.camera;
     distance_ += (sensor_position(scan, believed) - scene_.scene.center).norm();
-    return scans_.add(name, scan, believed, *registrar_);
+    return scans_.add(origin, scan, believed, *registrar_);
   }
 
   [[nodiscard]] NextView next() const {
@@ -34,6 +36,7 @@ class GrowingModel {
     if (!options_.scene.radius) scene.radius = distance_ / static_cast<double>(scans_.model().scans.size());
     Planner planner = options_.planner(scene.candidates(options_.scene.views), camera_);
     tell_of_scans(planner, scans_.model().scans);
+    if (scans_.learner) planner.believe(scans_.learner->prediction());
     std::optional<Plan> plan = planner.next_best_view(scans_.model().map, scans_.current());
     return {std::move(plan), planner.why_finished()};
   }
@@ -60,13 +63,14 @@ std::unique_ptr<GrowingModel> model_of_folder(const std::filesystem::path& path,
                                               const std::optional<std::function<void(const ScanRecord&)>>& on_scan,
                                               const py::kwargs& keywords) {
   const ScanPlanningOptions options = options_from(keywords, "read_scans");
+  options.validate_without_commands();
   const py::gil_scoped_release release;
   const ScanSet set = open_scans(path, options.reading);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
   auto model = std::make_unique<GrowingModel>(options, fit_scene(pending, options.scene));
   for (const PendingScan& each : pending) {
-    const ScanRecord record = model->add(each.name, each.read(), each.believed);
+    const ScanRecord record = model->add({.name = each.name}, each.read(), each.believed);
     if (on_scan) (*on_scan)(record);
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -92,12 +96,13 @@ void bind_scan_model(py::module_& module) {
       .def(py::init(&empty_model), py::arg("box"), "See the class for the options.")
       .def(
           "add",
-          [](GrowingModel& model, const ScanHolder& scan, const View& believed, const std::string& name) {
-            return model.add(name, scan.scan, believed);
+          [](GrowingModel& model, const ScanHolder& scan, const View& believed, const std::string& name,
+             const std::optional<View>& commanded) {
+            return model.add({.name = name, .commanded = commanded}, scan.scan, believed);
           },
-          py::arg("scan"), py::arg("believed"), py::arg("name") = "", Release(),
+          py::arg("scan"), py::arg("believed"), py::arg("name") = "", py::arg("commanded") = py::none(), Release(),
           "Registers a Scan from where the robot believes the sensor to be (4x4) and merges it where that succeeds: a "
-          "ScanRecord.")
+          "ScanRecord. commanded: where the sensor was sent (4x4), from which believed_error='learn' learns.")
       .def(
           "next_best_view", [](const GrowingModel& model) { return model.next().first; }, Release(),
           "The Plan for the next scan, or None where nothing is left to see.")

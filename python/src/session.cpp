@@ -47,8 +47,21 @@ std::unique_ptr<OpenSession> new_session(const std::filesystem::path& folder, co
 }
 
 ScanRecord add_scan(const OpenSession& session, const ScanHolder& scan, const View& believed, const std::string& name,
-                    std::optional<int> candidate) {
-  return session.get()->add({name, believed, scan.scan, candidate});
+                    std::optional<int> candidate, const std::optional<View>& commanded) {
+  return session.get()->add({name, believed, scan.scan, candidate, commanded});
+}
+
+/// Nothing where the session does not learn.
+std::optional<py::dict> learned_error(const SessionStatus& status) {
+  const std::optional<ErrorLearner>& learner = status.state->learner;
+  if (!learner) return std::nullopt;
+  const PoseError error = learner->estimate();
+  py::dict result;
+  result["observations"] = learner->observations();
+  result["left_out"] = learner->left_out();
+  result["mean"] = error.mean;
+  result["covariance"] = error.covariance;
+  return result;
 }
 
 ScanRecord add_depth(const OpenSession& session, const py::array& depth, const DoubleArray& intrinsics,
@@ -99,6 +112,11 @@ void bind_status(py::module_& module) {
             return status.state->scans.empty() ? 0.0 : status.state->scans.back().distance;
           },
           "Travelled so far, metres.")
+      .def_property_readonly(
+          "learned_error", &learned_error,
+          "What the scans from planned views have taught of the robot's error, where believed_error is 'learn', else "
+          "None: a dict of observations, left_out (taken for registrations that went wrong), mean (6,) and covariance "
+          "(6, 6) of x, y, z, pan, tilt and roll, metres and radians.")
       .def("__repr__", [](const SessionStatus& status) {
         return concat("<vantage.SessionStatus: ", status.stored, " scans stored, ", status.merged, " merged>");
       });
@@ -131,10 +149,11 @@ void bind_session(py::module_& module) {
       .def(py::init<const std::filesystem::path&>(), py::arg("folder"), Release(), "Opens a session.")
       .def_static("new", &new_session, py::arg("folder"), new_help.c_str())
       .def("add", &add_scan, py::arg("scan"), py::arg("believed"), py::arg("name") = "",
-           py::arg("candidate") = py::none(), Release(),
+           py::arg("candidate") = py::none(), py::arg("commanded") = py::none(), Release(),
            "Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, "
            "then registered and merged where that succeeds. candidate: index of the planned view that it was taken "
-           "from. Returns its ScanRecord once it is safe on disk.")
+           "from; commanded: where the sensor was sent (4x4), by default that view. Returns its ScanRecord once it is "
+           "safe on disk.")
       .def("add_depth", &add_depth, py::arg("depth"), py::arg("intrinsics"), py::arg("pose"),
            py::arg("distortion") = std::vector<double>(), py::arg("mask") = py::none(), py::arg("name") = "",
            py::arg("candidate") = py::none(),

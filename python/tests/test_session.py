@@ -118,6 +118,32 @@ class Sessions(InAFolder):
             session.unskip(plan.best.candidate)
             self.assertEqual(session.next().best.candidate, plan.best.candidate)
 
+    def test_the_error_is_learned_from_where_the_robot_ends_up(self):
+        scanner = vantage.RangeScanner(vantage.make_object("mug"))
+        camera = vantage.RangeCamera.from_intrinsics(95, 95, 39.5, 29.5, (80, 60))
+        errors = np.array([[0.1, 0, -0.1], [-0.1, 0.2, 0.1], [0.3, 0.1, 0]])
+        options = dict(OPTIONS, registration="none", convolve="samples", believed_error="learn:0.1,0.1,0.2")
+        with vantage.Session.new(self.folder / "s", **options) as session:
+            self.assertEqual(session.status().learned_error["observations"], 0)
+            depth, pose = next(mug_frames())
+            session.add_depth(depth, INTRINSICS, pose)
+            for error in errors:
+                best = session.next().best
+                reached = best.view.copy()
+                reached[:3, 3] += error
+                scan = vantage.Scan(vantage.RangeImage(camera, scanner.scan(camera, reached).depth))
+                session.add(scan, reached, candidate=best.candidate, commanded=best.view)
+            learned = session.status().learned_error
+        self.assertEqual(learned["observations"], 3)
+        # docs/positioning-error.md with kappa_0 = 1: the mean of three shrunk by 3/4; scatter and prior over 4.
+        mean = errors.mean(axis=0)
+        scatter = (errors - mean).T @ (errors - mean)
+        expected = (np.diag([0.01, 0.01, 0.04]) + scatter + 0.75 * np.outer(mean, mean)) / 4
+        np.testing.assert_allclose(learned["mean"][:3], 0.75 * mean, atol=1e-9)
+        np.testing.assert_allclose(learned["covariance"][:3, :3], expected, atol=1e-9)
+        with vantage.Session(self.folder / "s") as session:
+            np.testing.assert_array_equal(session.status().learned_error["covariance"], learned["covariance"])
+
     def test_threads_may_ask_while_scans_are_added(self):
         session = vantage.Session.new(self.folder / "s", **OPTIONS)
         frames, answers = list(mug_frames()), []

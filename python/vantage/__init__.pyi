@@ -384,7 +384,7 @@ class Planner:
         alpha_op = 0.8: desired share of occplane voxels, eq. 7
         rho = 0.2: navigation factor of the farthest view, eq. 10
         navigation = true: use the navigation factor
-        believed_error = none [m]: standard deviation per axis that the planner assumes, or learn; that of the robot if not given
+        believed_error = none [m]: standard deviation per axis that the planner assumes; or learn, or learn:SX,SY,SZ with what to assume at first; that of the robot if not given
         believed_orientation_error = none [degrees]: standard deviation of pan, tilt and roll that the planner assumes; that of the robot if not given
         believed_mean = none [m, degrees]: mean error that the planner assumes: x,y,z,pan,tilt,roll
         believed_covariance = none [m^2]: of the position, as the planner assumes: xx,xy,xz,yy,yz,zz; instead of believed-error
@@ -673,7 +673,7 @@ def simulate(object: Union[str, TriangleMesh], on_scan: Optional[Callable[[ScanR
         error_covariance = none [m^2]: of the robot's position: xx,xy,xz,yy,yz,zz; instead of positioning-error
         error_growth = 0,0,0,0,0,0 [m/m, degrees/m]: what the deviations x,y,z,pan,tilt,roll of the robot grow by with every metre of a move
         turntable_error = none [degrees, m]: deviations of azimuth, elevation and reach of an arm around a turntable; instead of the errors above
-        believed_error = none [m]: standard deviation per axis that the planner assumes, or learn; that of the robot if not given
+        believed_error = none [m]: standard deviation per axis that the planner assumes; or learn, or learn:SX,SY,SZ with what to assume at first; that of the robot if not given
         believed_orientation_error = none [degrees]: standard deviation of pan, tilt and roll that the planner assumes; that of the robot if not given
         believed_mean = none [m, degrees]: mean error that the planner assumes: x,y,z,pan,tilt,roll
         believed_covariance = none [m^2]: of the position, as the planner assumes: xx,xy,xz,yy,yz,zz; instead of believed-error
@@ -780,11 +780,20 @@ class ScanModel:
         rho = 0.2: navigation factor of the farthest view, eq. 10
         navigation = true: use the navigation factor
         stop_occplane = 0 [voxels]: stop when no view sees more occplane voxels than this
-        deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline"""
+        deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline
+        believed_error = none [m]: standard deviation per axis that the planner assumes; or learn, or learn:SX,SY,SZ with what to assume at first; that of the robot if not given
+        believed_orientation_error = none [degrees]: standard deviation of pan, tilt and roll that the planner assumes; that of the robot if not given
+        believed_mean = none [m, degrees]: mean error that the planner assumes: x,y,z,pan,tilt,roll
+        believed_covariance = none [m^2]: of the position, as the planner assumes: xx,xy,xz,yy,yz,zz; instead of believed-error
+        believed_growth = none [m/m, degrees/m]: growth of the error that the planner assumes
+        convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
+        error_candidates = 12: strongest views that poses are sampled around
+        error_samples = 32: poses around each of them, an even number
+        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
     def __init__(self, box: ArrayLike, **options: Any) -> None:
         """See the class for the options."""
-    def add(self, scan: Scan, believed: ArrayLike, name: str = '') -> ScanRecord:
-        """Registers a Scan from where the robot believes the sensor to be (4x4) and merges it where that succeeds: a ScanRecord."""
+    def add(self, scan: Scan, believed: ArrayLike, name: str = '', commanded: Optional[ArrayLike] = None) -> ScanRecord:
+        """Registers a Scan from where the robot believes the sensor to be (4x4) and merges it where that succeeds: a ScanRecord. commanded: where the sensor was sent (4x4), from which believed_error='learn' learns."""
     def next_best_view(self) -> Optional[Plan]:
         """The Plan for the next scan, or None where nothing is left to see."""
     @property
@@ -843,7 +852,16 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         rho = 0.2: navigation factor of the farthest view, eq. 10
         navigation = true: use the navigation factor
         stop_occplane = 0 [voxels]: stop when no view sees more occplane voxels than this
-        deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline"""
+        deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline
+        believed_error = none [m]: standard deviation per axis that the planner assumes; or learn, or learn:SX,SY,SZ with what to assume at first; that of the robot if not given
+        believed_orientation_error = none [degrees]: standard deviation of pan, tilt and roll that the planner assumes; that of the robot if not given
+        believed_mean = none [m, degrees]: mean error that the planner assumes: x,y,z,pan,tilt,roll
+        believed_covariance = none [m^2]: of the position, as the planner assumes: xx,xy,xz,yy,yz,zz; instead of believed-error
+        believed_growth = none [m/m, degrees/m]: growth of the error that the planner assumes
+        convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
+        error_candidates = 12: strongest views that poses are sampled around
+        error_samples = 32: poses around each of them, an even number
+        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
 
 def scan_from_depth(depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, **options: Any) -> Tuple[Scan, NDArray[numpy.float64]]:
     """A Scan and the pose (4, 4) of its sensor from arrays as a driver and a robot give them.
@@ -888,6 +906,9 @@ class SessionStatus:
     @property
     def distance(self) -> float:
         """Travelled so far, metres."""
+    @property
+    def learned_error(self) -> Optional[dict]:
+        """What the scans from planned views have taught of the robot's error, where believed_error is 'learn', else None: a dict of observations, left_out (taken for registrations that went wrong), mean (6,) and covariance (6, 6) of x, y, z, pan, tilt and roll, metres and radians."""
 
 
 class Session:
@@ -935,9 +956,18 @@ class Session:
             rho = 0.2: navigation factor of the farthest view, eq. 10
             navigation = true: use the navigation factor
             stop_occplane = 0 [voxels]: stop when no view sees more occplane voxels than this
-            deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline"""
-    def add(self, scan: Scan, believed: ArrayLike, name: str = '', candidate: Optional[int] = None) -> ScanRecord:
-        """Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, then registered and merged where that succeeds. candidate: index of the planned view that it was taken from. Returns its ScanRecord once it is safe on disk."""
+            deadline = 0 [ms]: longest time to evaluate views for one plan: then the best so far is taken, and the run depends on the clock; 0: no deadline
+            believed_error = none [m]: standard deviation per axis that the planner assumes; or learn, or learn:SX,SY,SZ with what to assume at first; that of the robot if not given
+            believed_orientation_error = none [degrees]: standard deviation of pan, tilt and roll that the planner assumes; that of the robot if not given
+            believed_mean = none [m, degrees]: mean error that the planner assumes: x,y,z,pan,tilt,roll
+            believed_covariance = none [m^2]: of the position, as the planner assumes: xx,xy,xz,yy,yz,zz; instead of believed-error
+            believed_growth = none [m/m, degrees/m]: growth of the error that the planner assumes
+            convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
+            error_candidates = 12: strongest views that poses are sampled around
+            error_samples = 32: poses around each of them, an even number
+            least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
+    def add(self, scan: Scan, believed: ArrayLike, name: str = '', candidate: Optional[int] = None, commanded: Optional[ArrayLike] = None) -> ScanRecord:
+        """Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, then registered and merged where that succeeds. candidate: index of the planned view that it was taken from; commanded: where the sensor was sent (4x4), by default that view. Returns its ScanRecord once it is safe on disk."""
     def add_depth(self, depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, name: str = '', candidate: Optional[int] = None) -> ScanRecord:
         """Adds a depth image as scan_from_depth() reads it, by the session's options (depth_scale, unit, hand_eye, crop, ...): depth (rows, columns), uint16 or floating-point; intrinsics (3, 3); pose (4, 4) as the robot reports it; mask (rows, columns), zero where a pixel does not count. Returns its ScanRecord once it is safe on disk."""
     def add_files(self, path: Union[str, pathlib.Path], candidate: Optional[int] = None, **options: Any) -> List[ScanRecord]:

@@ -38,7 +38,8 @@ class Description(OverHttp):
         one = b'{"candidate": 3}'
         everything = [(method.upper(), path, b"{}" if method == "post" else None,
                        as_json if method == "post" else {}) for path, method in sorted(api.operations())]
-        with Server(self.new("described")) as server:
+        learning = ["--views", "20", "--convolve", "samples", "--believed-error", "learn:0.05,0.05,0.05"]
+        with Server(self.new("described", *learning)) as server:
             self.ask_all(api, server, [
                 ("GET", "/", None, {}, 200),
                 ("GET", "/api/run", None, {}, 200),
@@ -58,6 +59,7 @@ class Description(OverHttp):
                 ("GET", "/api/session?x=1", None, {}, 400),
                 ("POST", session + "next", b"", as_json, 200),
                 ("GET", "/api/session", None, {}, 200),
+                ("POST", scans, form(self.parts[2]), multipart, 201),
                 ("POST", session + "skip", b'{"candidate": 3, "reason": "far"}', as_json, 200),
                 ("POST", session + "next", one, as_json, 409),
                 ("POST", session + "unskip", one, as_json, 200),
@@ -68,6 +70,8 @@ class Description(OverHttp):
                 *(("POST", path, b'{"x": 1}', as_json, 400) for path in posts),
                 *(("POST", path, b"{}", {"Content-Type": "text/plain"}, 415) for path in posts),
                 *(("POST", path, bytes(65 << 10), as_json, 413) for path in posts)])
+            learned = server.get_json("/api/session")["learned_error"]
+            self.assertEqual(learned["observations"], 1, "the scan of the view that was taken")
             self.ask_all(api, server, [(*each, 403) for each in everything], {"Host": "elsewhere.example"})
             connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=60)
             connection.request("GET", "/api/events")

@@ -8,6 +8,7 @@ namespace vantage {
 
 nlohmann::ordered_json view_json(const Evaluation& e) {
   const Vec3 position = e.view.position();
+  using Json = nlohmann::ordered_json;
   return {{"index", e.candidate},
           {"position", {position.x(), position.y(), position.z()}},
           {"feasible", e.feasible},
@@ -24,7 +25,10 @@ nlohmann::ordered_json view_json(const Evaluation& e) {
           {"f_navigation", e.factors.f_navigation},
           {"f_quality", e.factors.f_quality},
           {"f_occlusion", e.factors.f_occlusion},
-          {"utility", e.utility}};
+          {"utility", e.utility},
+          {"score", e.score},
+          {"expected_utility", e.expected ? Json(e.expected->utility) : Json(nullptr)},
+          {"overlap_probability", e.expected ? Json(e.expected->registers) : Json(nullptr)}};
 }
 
 nlohmann::ordered_json move_json(const Move& move) {

@@ -21,21 +21,6 @@ std::string quoted(const std::string& text) {
   return fmt::format("\"{}\"", result);
 }
 
-/// Mean and covariance of x, y, z, pan, tilt, roll; metres and degrees.
-Json learned_json(const std::optional<PoseError>& error) {
-  if (!error) return nullptr;
-  PoseError::Vector unit;
-  unit << Vec3::Ones(), Vec3::Constant(degrees(1));
-  Json json{{"mean", Json::array()}, {"covariance", Json::array()}};
-  for (int i = 0; i < 6; ++i) {
-    json["mean"].push_back(error->mean[i] * unit[i]);
-    Json row = Json::array();
-    for (int k = 0; k < 6; ++k) row.push_back(error->covariance(i, k) * unit[i] * unit[k]);
-    json["covariance"].push_back(row);
-  }
-  return json;
-}
-
 std::string csv_field(const Json& value) {
   if (value.is_null()) return "";
   if (value.is_string()) return quoted(value.get<std::string>());
@@ -43,6 +28,19 @@ std::string csv_field(const Json& value) {
 }
 
 }  // namespace
+
+Json pose_error_json(const PoseError& error) {
+  PoseError::Vector unit;
+  unit << Vec3::Ones(), Vec3::Constant(degrees(1));
+  Json json{{"mean", Json::array()}, {"covariance", Json::array()}};
+  for (int i = 0; i < 6; ++i) {
+    json["mean"].push_back(error.mean[i] * unit[i]);
+    Json row = Json::array();
+    for (int k = 0; k < 6; ++k) row.push_back(error.covariance(i, k) * unit[i] * unit[k]);
+    json["covariance"].push_back(row);
+  }
+  return json;
+}
 
 std::array<double, 7> pose_numbers(const Pose& pose) {
   Eigen::Quaterniond q(pose.linear());
@@ -114,7 +112,9 @@ Json summary_json(const ObjectModel& model, const RunSummary& summary) {
   json["completeness_all"] = or_null(summary.completeness_all);
   json["stop_reason"] = summary.stop_reason;
   json["seed"] = summary.seed;
-  json["learned_error"] = model.scans.empty() ? Json(nullptr) : learned_json(model.scans.back().learned_error);
+  json["learned_error"] = model.scans.empty() || !model.scans.back().learned_error
+                              ? Json(nullptr)
+                              : pose_error_json(*model.scans.back().learned_error);
   json["scans"] = Json::array();
   for (const ScanRecord& record : model.scans) json["scans"].push_back(scan_json(record));
   return json;

@@ -20,6 +20,9 @@ struct RunSummary {
 /// A pose as x y z qx qy qz qw with qw >= 0.
 [[nodiscard]] std::array<double, 7> pose_numbers(const Pose& pose);
 
+/// Mean and covariance of x, y, z, pan, tilt, roll; metres and degrees.
+[[nodiscard]] nlohmann::ordered_json pose_error_json(const PoseError& error);
+
 /// One scan as the keys of spec section 10; absent values are null. Poses are arrays of 7 numbers.
 [[nodiscard]] nlohmann::ordered_json scan_json(const ScanRecord& record);
 

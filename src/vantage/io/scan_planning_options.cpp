@@ -1,5 +1,6 @@
 #include "vantage/io/scan_planning_options.hpp"
 
+#include "vantage/core/error.hpp"
 #include "vantage/io/robot_file.hpp"
 
 namespace vantage {
@@ -8,7 +9,20 @@ void ScanPlanningOptions::validate() const {
   scene.validate();
   reading.validate();
   (void)camera(std::nullopt);
+  planning.validate_errors(planning.center);
+  require(planning.convolve == "off" || planning.believed_error || planning.believed_covariance ||
+              planning.believed_orientation_error || planning.believed_growth || planning.believed_mean,
+          "convolve = ", planning.convolve,
+          ": needs how the robot errs; give believed-error as SX,SY,SZ or, in a session, learn");
   planning.planner_options().validate();
+}
+
+void ScanPlanningOptions::validate_without_commands() const {
+  require(
+      !planning.learns_error(), "believed-error = ", *planning.believed_error,
+      ": scans in a folder do not say where the sensor was sent; give the deviations as SX,SY,SZ, or use a session, "
+      "which is told");
+  validate();
 }
 
 RangeCamera ScanPlanningOptions::camera(const std::optional<RangeCamera>& of_scans) const {
@@ -37,6 +51,8 @@ std::vector<OptionField> option_fields(ScanPlanningOptions& options) {
     // The depth range is that of the scans, and the candidates are a sphere around the box.
     if (field.name != "depth-range" && field.name != "candidates") fields.push_back(std::move(field));
   }
+  for (OptionField& field : fields_named(option_fields(options.planning), believed_error_option_names()))
+    fields.push_back(std::move(field));
   return fields;
 }
 

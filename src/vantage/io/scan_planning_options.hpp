@@ -17,6 +17,8 @@ struct ScanPlanningOptions {
 
   /// Throws InputError naming the option.
   void validate() const;
+  /// The same, and that nothing is to be learned of commanded views, which a folder of scans does not tell.
+  void validate_without_commands() const;
   /// The camera that views are planned for: that of the scans where they have one, with the depth range of the options.
   [[nodiscard]] RangeCamera camera(const std::optional<RangeCamera>& of_scans) const;
   [[nodiscard]] Planner planner(const Candidates& candidates, const std::optional<RangeCamera>& of_scans) const;

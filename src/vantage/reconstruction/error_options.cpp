@@ -2,7 +2,6 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/reconstruction/options.hpp"
-#include "vantage/robot/error_learner.hpp"
 
 namespace vantage {
 namespace {
@@ -88,12 +87,10 @@ void require_independent(const char* covariance_option, const char* growth_optio
           said.covariance->transpose(), ": with ", growth_option, " the axes must err independently (xy, xz and yz 0)");
 }
 
-void validate_learning(const ErrorOptions& o, const std::string& registration) {
+void validate_learning(const ErrorOptions& o) {
   require(o.convolve != "off",
           "believed-error = learn: with convolve = off nothing would use what is learned; must be on, normalised or "
           "samples");
-  require(registration != "none",
-          "believed-error = learn: needs registered poses to learn from; registration must be truth or icp, is none");
   require(!o.believed_orientation_error && !o.believed_mean && !o.believed_covariance && !o.believed_growth,
           "believed-error = learn: what is learned cannot be given too; leave out believed-orientation-error, "
           "believed-mean, believed-covariance and believed-growth");
@@ -101,7 +98,27 @@ void validate_learning(const ErrorOptions& o, const std::string& registration) {
 
 }  // namespace
 
-void ErrorOptions::validate_errors(const std::string& registration, const Vec3& center) const {
+std::vector<std::string> believed_error_option_names() {
+  return {"believed-error", "believed-orientation-error", "believed-mean", "believed-covariance", "believed-growth",
+          "convolve",       "error-candidates",           "error-samples", "least-overlap"};
+}
+
+std::optional<ErrorLearnerOptions> ErrorOptions::learner_options() const {
+  constexpr std::string_view word = "learn";
+  if (!believed_error || !believed_error->starts_with(word)) return std::nullopt;
+  ErrorLearnerOptions learner;
+  if (*believed_error == word) return learner;
+  require((*believed_error)[word.size()] == ':', "believed-error: '", *believed_error,
+          "' must be SX,SY,SZ, learn or learn:SX,SY,SZ");
+  const std::vector<double> n = numbers_from_text("believed-error", believed_error->substr(word.size() + 1), 3);
+  learner.prior_deviation = Vec3(n[0], n[1], n[2]);
+  require((learner.prior_deviation.array() > 0).all(), "believed-error = ", *believed_error,
+          ": what is believed at first must be positive");
+  return learner;
+}
+
+void ErrorOptions::validate_errors(const Vec3& center) const {
+  require_one_of("convolve", convolve, {"off", "on", "normalised", "samples"});
   require_not_negative("positioning-error", "m", positioning_error);
   require_not_negative("orientation-error", "degrees", orientation_error);
   require_not_negative("error-growth", "per metre", error_growth);
@@ -121,7 +138,7 @@ void ErrorOptions::validate_errors(const std::string& registration, const Vec3& 
   }
   require_independent("error-covariance", "error-growth", robot_of(*this));
   if (learns_error()) {
-    validate_learning(*this, registration);
+    validate_learning(*this);
   } else {
     const Said believed = believed_of(*this);
     require_not_negative("believed-error", "m", believed.deviations);
@@ -145,7 +162,8 @@ std::shared_ptr<const PoseErrorModel> ErrorOptions::robot_error(const Vec3& cent
 }
 
 std::shared_ptr<const PoseErrorModel> ErrorOptions::believed_error_model(const Vec3& center) const {
-  if (learns_error()) return std::make_shared<ConstantError>(ErrorLearner().prediction());
+  if (const auto learner = learner_options())
+    return std::make_shared<ConstantError>(ErrorLearner(*learner).prediction());
   if (turntable_error && !says_what_is_believed(*this)) return turntable(*turntable_error, center);
   return model_of(believed_of(*this));
 }

@@ -3,7 +3,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "vantage/robot/error_learner.hpp"
 #include "vantage/robot/error_model.hpp"
 
 namespace vantage {
@@ -32,14 +34,19 @@ struct ErrorOptions {
   double least_overlap = 0.1;
 
   /// Throws InputError naming the option. `center`: of the scene, around which a turntable turns.
-  void validate_errors(const std::string& registration, const Vec3& center) const;
+  void validate_errors(const Vec3& center) const;
   /// How the simulated robot errs; none where it is exact.
   [[nodiscard]] std::shared_ptr<const PoseErrorModel> robot_error(const Vec3& center) const;
   /// How the planner believes that it errs: where nothing else is said, as it does. Where the error is learned, the
   /// prior.
   [[nodiscard]] std::shared_ptr<const PoseErrorModel> believed_error_model(const Vec3& center) const;
-  [[nodiscard]] bool learns_error() const { return believed_error == "learn"; }
+  /// Where the error is learned, what is believed of it at first.
+  [[nodiscard]] std::optional<ErrorLearnerOptions> learner_options() const;
+  [[nodiscard]] bool learns_error() const { return learner_options().has_value(); }
 };
+
+/// The options that say what is believed and how that is planned with; the others are the simulated robot's.
+[[nodiscard]] std::vector<std::string> believed_error_option_names();
 
 template <class Field>
 void describe(ErrorOptions& o, Field&& field) {
@@ -53,7 +60,8 @@ void describe(ErrorOptions& o, Field&& field) {
   field("turntable-error", o.turntable_error, "degrees, m",
         "deviations of azimuth, elevation and reach of an arm around a turntable; instead of the errors above");
   field("believed-error", o.believed_error, "m",
-        "standard deviation per axis that the planner assumes, or learn; that of the robot if not given");
+        "standard deviation per axis that the planner assumes; or learn, or learn:SX,SY,SZ with what to assume at "
+        "first; that of the robot if not given");
   field("believed-orientation-error", o.believed_orientation_error, "degrees",
         "standard deviation of pan, tilt and roll that the planner assumes; that of the robot if not given");
   field("believed-mean", o.believed_mean, "m, degrees", "mean error that the planner assumes: x,y,z,pan,tilt,roll");

@@ -30,6 +30,8 @@ std::vector<Box3> boxes_from_text(const std::string& option, const std::string& 
   return boxes;
 }
 
+}  // namespace
+
 void require_one_of(const std::string& option, const std::string& value, const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) {
@@ -38,8 +40,6 @@ void require_one_of(const std::string& option, const std::string& value, const s
   }
   throw InputError(concat(option, " = '", value, "': must be one of: ", list));
 }
-
-}  // namespace
 
 std::vector<double> numbers_from_text(const std::string& option, const std::string& text, std::size_t count) {
   std::vector<double> numbers;
@@ -111,11 +111,12 @@ void ReconstructOptions::validate() const {
   require(!size || (*size > 0 && std::isfinite(*size)), "size = ", size.value_or(0), " m: must be positive");
   require((depth_noise.array() >= 0).all() && depth_noise.allFinite(), "depth-noise = ", depth_noise.transpose(),
           ": must not be negative");
-  require_one_of("convolve", convolve, {"off", "on", "normalised", "samples"});
   require_one_of("quality", quality, {"axis", "ray"});
   require_one_of("search", search, {"exhaustive", "multi-resolution"});
   require_one_of("registration", registration, {"truth", "none", "icp"});
-  validate_errors(registration, center);
+  validate_errors(center);
+  require(!learns_error() || registration != "none",
+          "believed-error = learn: needs registered poses to learn from; registration must be truth or icp, is none");
   require(initial_view >= 0, "initial-view = ", initial_view, ": must not be negative");
   scene_options().validate();
   range_camera().validate();

@@ -127,6 +127,8 @@ void describe(ReconstructOptions& o, Field&& field) {
 /// The options that decide how a view is planned on a given map: candidates, camera, utility, search and reach.
 [[nodiscard]] std::vector<std::string> planning_option_names();
 
+/// Throws InputError that names the option and the values it may have.
+void require_one_of(const std::string& option, const std::string& value, const std::vector<std::string>& names);
 /// Numbers separated by commas, as many as asked for; throws InputError that names the option.
 [[nodiscard]] std::vector<double> numbers_from_text(const std::string& option, const std::string& text,
                                                     std::size_t count);

@@ -84,19 +84,16 @@ void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, 
   } else {
     planner_.set_aside(candidate, concat("its scan could not be registered: ", record.verdict));
   }
-  learn_from(record);
+  if (learner && teach(*learner, record)) planner_.believe(learner->prediction());
   on_scan(record, scan, model, plan);
   model.scans.push_back(std::move(record));
 }
 
-void Reconstruction::learn_from(ScanRecord& record) {
-  if (!learner) return;
-  // The first scan defines the frame that the others are registered in: it tells nothing of the robot's error.
-  if (record.merged && record.scan > 0) {
-    learner->add(record.commanded, record.registered);
-    planner_.believe(learner->prediction());
-  }
-  record.learned_error = learner->estimate();
+bool teach(ErrorLearner& learner, ScanRecord& record) {
+  const bool is_lesson = record.merged && record.scan > 0;
+  if (is_lesson) learner.add(record.commanded, record.registered);
+  record.learned_error = learner.estimate();
+  return is_lesson;
 }
 
 std::string Reconstruction::why_stop(const ObjectModel& model, double seconds) const {

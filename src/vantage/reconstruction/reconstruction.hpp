@@ -27,6 +27,10 @@ struct ObjectModel {
 [[nodiscard]] ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Registrar& registrar,
                                 QualityReference quality = QualityReference::axis);
 
+/// Teaches the learner the error of a scan that was merged, and notes in the record what is known then. True where the
+/// scan taught something: the first one defines the frame that the others are registered in.
+bool teach(ErrorLearner& learner, ScanRecord& record);
+
 /// When to stop although there is more to see (spec, section 5).
 struct Budget {
   int max_views = 40;
@@ -63,7 +67,6 @@ class Reconstruction {
 
  private:
   void scan_and_update(ObjectModel& model, const View& commanded, const Plan* plan, int candidate, double plan_seconds);
-  void learn_from(ScanRecord& record);
   [[nodiscard]] std::string why_stop(const ObjectModel& model, double seconds) const;
 
   Robot& robot_;

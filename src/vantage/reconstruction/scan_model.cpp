@@ -41,16 +41,23 @@ std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const 
 
 ScanModel::ScanModel(const ScanScene& scene) : model_(scene.scene, scene.scene.voxel_length / 4) {}
 
-const ScanRecord& ScanModel::add(const std::string& name, const Scan& scan, const View& believed, Registrar& registrar,
-                                 int candidate) {
+const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& scan, const View& believed,
+                                 Registrar& registrar) {
   ScanRecord record = update(model_, scan, believed, registrar);
-  record.candidate = candidate;
-  record.commanded = believed;
-  record.reason = name;
+  record.candidate = origin.candidate;
+  record.commanded = origin.commanded.value_or(believed);
+  record.reason = origin.name;
   const Vec3 position = sensor_position(scan, record.registered);
   record.distance = model_.scans.empty() ? 0 : model_.scans.back().distance + (position - current_.position()).norm();
   current_ = record.registered;
   current_.world_from_sensor.translation() = position;
+  if (learner) {
+    if (origin.commanded) {
+      (void)teach(*learner, record);
+    } else {
+      record.learned_error = learner->estimate();
+    }
+  }
   model_.scans.push_back(std::move(record));
   return model_.scans.back();
 }

@@ -72,7 +72,7 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   Reconstruction loop(robot, planner, *registrar);
   loop.budget = options.budget();
   loop.quality = options.quality_reference();
-  if (options.learns_error()) loop.learner.emplace();
+  if (const auto learner = options.learner_options()) loop.learner.emplace(*learner);
   loop.interrupted = observer.interrupted;
   loop.on_plan = observer.on_plan;
   loop.on_scan = [&](ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {

@@ -22,7 +22,7 @@ struct Block {
   Mat3 covariance = Mat3::Zero();
 };
 
-Block posterior(const std::vector<PoseError::Vector>& differences, int first, double prior_deviation,
+Block posterior(const std::vector<PoseError::Vector>& differences, int first, const Vec3& prior_deviations,
                 const ErrorLearnerOptions& options) {
   const auto count = static_cast<double>(differences.size());
   Vec3 average = Vec3::Zero();
@@ -33,10 +33,11 @@ Block posterior(const std::vector<PoseError::Vector>& differences, int first, do
     scatter += deviation * deviation.transpose();
   }
   const double kappa = options.prior_mean_weight + count;
-  const Mat3 prior = options.prior_covariance_weight * prior_deviation * prior_deviation * Mat3::Identity();
+  const Mat3 prior = prior_deviations.cwiseAbs2().asDiagonal();
   Block block;
   block.mean = count / kappa * average;
-  block.covariance = (prior + scatter + options.prior_mean_weight * count / kappa * average * average.transpose()) /
+  block.covariance = (options.prior_covariance_weight * prior + scatter +
+                      options.prior_mean_weight * count / kappa * average * average.transpose()) /
                      (options.prior_covariance_weight + count);
   return block;
 }
@@ -44,8 +45,9 @@ Block posterior(const std::vector<PoseError::Vector>& differences, int first, do
 }  // namespace
 
 void ErrorLearnerOptions::validate() const {
-  for (const auto& [name, value] : {std::pair{"deviation", prior_deviation},
-                                    {"orientation", prior_orientation},
+  require(prior_deviation.allFinite() && (prior_deviation.array() > 0).all(),
+          "learning the error: prior deviation = ", prior_deviation.transpose(), ": must be positive");
+  for (const auto& [name, value] : {std::pair{"orientation", prior_orientation},
                                     {"mean weight", prior_mean_weight},
                                     {"covariance weight", prior_covariance_weight}}) {
     require(value > 0 && std::isfinite(value), "learning the error: prior ", name, " = ", value, ": must be positive");
@@ -63,7 +65,7 @@ void ErrorLearner::add(const View& commanded, const View& registered) {
 
 PoseError::Vector ErrorLearner::prior_deviations() const {
   PoseError::Vector deviations;
-  deviations << Vec3::Constant(options_.prior_deviation), Vec3::Constant(options_.prior_orientation);
+  deviations << options_.prior_deviation, Vec3::Constant(options_.prior_orientation);
   return deviations;
 }
 
@@ -92,7 +94,7 @@ int ErrorLearner::left_out() const { return observations() - static_cast<int>(pl
 PoseError ErrorLearner::estimate() const {
   const std::vector<PoseError::Vector> differences = plausible();
   const Block position = posterior(differences, 0, options_.prior_deviation, options_);
-  const Block orientation = posterior(differences, 3, options_.prior_orientation, options_);
+  const Block orientation = posterior(differences, 3, Vec3::Constant(options_.prior_orientation), options_);
   PoseError error;
   error.mean << position.mean, orientation.mean;
   error.covariance.topLeftCorner<3, 3>() = position.covariance;

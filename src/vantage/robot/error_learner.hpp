@@ -7,11 +7,11 @@
 namespace vantage {
 
 struct ErrorLearnerOptions {
-  double prior_deviation = 0.05;          // metres per axis, believed before the first scan
-  double prior_orientation = radians(1);  // of pan, tilt and roll
-  double prior_mean_weight = 1;           // kappa_0: scans that the belief in a mean of zero is worth
-  double prior_covariance_weight = 1;     // scans that the belief in the deviations is worth: nu_0 = this + 4
-  double wild_deviations = 6;             // differences farther from the median than this are left out
+  Vec3 prior_deviation = Vec3::Constant(0.05);  // metres per axis, believed before the first scan
+  double prior_orientation = radians(1);        // of pan, tilt and roll
+  double prior_mean_weight = 1;                 // kappa_0: scans that the belief in a mean of zero is worth
+  double prior_covariance_weight = 1;           // scans that the belief in the deviations is worth: nu_0 = this + 4
+  double wild_deviations = 6;                   // differences farther from the median than this are left out
 
   /// Throws InputError naming the field.
   void validate() const;

@@ -105,7 +105,7 @@ TEST(ErrorLearner, DoesNotTakeALargeErrorForAWildOne) {
 
 TEST(ErrorLearner, NamesWhatIsWrong) {
   ErrorLearnerOptions options;
-  options.prior_deviation = 0;
+  options.prior_deviation.y() = 0;
   EXPECT_THROW((void)ErrorLearner(options), InputError);
   options = {};
   options.wild_deviations = -1;

@@ -151,9 +151,12 @@ int SessionService::store(SessionScan scan) {
   const int views = session_->options().scene.views;
   require(scan.candidate.value_or(0) < views, "candidate = ", scan.candidate.value_or(0),
           ": must be one of the views 0 .. ", views - 1);
-  if (!scan.candidate) {
+  {
     const std::lock_guard lock(mutex_);
-    if (taken_) scan.candidate = taken_->candidate;
+    if (taken_ && scan.candidate.value_or(taken_->candidate) == taken_->candidate) {
+      scan.candidate = taken_->candidate;
+      scan.commanded = taken_->view;
+    }
   }
   try {
     return session_->store(std::move(scan));

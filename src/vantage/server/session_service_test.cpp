@@ -100,7 +100,7 @@ TEST_F(SessionServiceTest, AViewIsTakenSkippedAndPlannedAgain) {
   EXPECT_EQ(s.status()["taken"]["candidate"], best);
   EXPECT_EQ(Json::parse(s.post("/next", Json{{"candidate", second}}.dump())->body)["pose"], ranking[1]["pose"]);
   EXPECT_EQ(Json::parse(*s.run.document())["take"]["candidate"], second);
-  (void)s.add(plate_form());
+  EXPECT_EQ(Json::parse(s.add(plate_form())->body)["commanded"], ranking[1]["pose"]);
   EXPECT_EQ(s.status()["taken"], nullptr);
   EXPECT_EQ(s.post("/skip", Json{{"candidate", best}, {"reason", "a cable"}}.dump())->status, 200);
   EXPECT_EQ(s.status()["skipped"], Json::array({{{"index", best}, {"reason", "a cable"}}}));

@@ -7,6 +7,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json learned_json(const std::optional<ErrorLearner>& learner) {
+  if (!learner) return nullptr;
+  Json json{{"observations", learner->observations()}, {"left_out", learner->left_out()}};
+  json.update(pose_error_json(learner->estimate()));
+  return json;
+}
+
 }  // namespace
 
 Json status_json(const SessionStatus& status) {
@@ -19,6 +26,7 @@ Json status_json(const SessionStatus& status) {
   json["mean_quality"] = state.map.mean_quality();
   json["distance"] = state.scans.empty() ? 0.0 : state.scans.back().distance;
   json["radius"] = state.radius;
+  json["learned_error"] = learned_json(state.learner);
   json["skipped"] = Json::array();
   for (const auto& [candidate, reason] : status.skipped) {
     json["skipped"].push_back({{"index", candidate}, {"reason", reason}});

@@ -26,19 +26,28 @@ class KeepingRegistrar : public Registrar {
 
 SessionModel::SessionModel(const ScanPlanningOptions& options)
     : given_radius_(options.scene.radius),
+      views_(options.scene.views),
       box_(given_box(options.scene).value()),
       registrar_(make_registrar(options.scene, scene_in(box_, options.scene))),
-      scans_(scene_in(box_, options.scene)) {}
+      scans_(scene_in(box_, options.scene)) {
+  if (const auto learner = options.planning.learner_options()) scans_.learner.emplace(*learner);
+}
 
 Located SessionModel::add(int number, const SessionScan& scan, const std::optional<Located>& known) {
   KeepingRegistrar registrar(*registrar_, known);
-  note_candidate(scan, scans_.add(scan.name, scan.scan, scan.believed, registrar, scan.candidate.value_or(-1)));
+  const ScanOrigin origin{scan.name, scan.candidate.value_or(-1), commanded(scan)};
+  note_candidate(scan, scans_.add(origin, scan.scan, scan.believed, registrar));
   numbers_.push_back(number);
   sum_of_distances_ += (sensor_position(scan.scan, scan.believed) - box_.center()).norm();
   if (!box_was_seen_) box_was_seen_ = points_in(box_, scan.scan, scan.believed) > 0;
   const auto* image = std::get_if<ImageScan>(&scan.scan);
   if (image != nullptr && !camera_) camera_ = image->image.camera;
   return registrar.found();
+}
+
+std::optional<View> SessionModel::commanded(const SessionScan& scan) const {
+  if (scan.commanded || !scan.candidate || *scan.candidate >= views_ || radius() == 0) return scan.commanded;
+  return view_sphere(views_, radius(), box_.center()).views[static_cast<std::size_t>(*scan.candidate)];
 }
 
 void SessionModel::note_candidate(const SessionScan& scan, const ScanRecord& record) {
@@ -62,7 +71,8 @@ SessionState SessionModel::state() const {
           .radius = radius(),
           .camera = camera_,
           .set_aside = set_aside_,
-          .box_was_seen = box_was_seen_};
+          .box_was_seen = box_was_seen_,
+          .learner = scans_.learner};
 }
 
 Planner session_planner(const ScanPlanningOptions& options, const SessionState& state,
@@ -70,6 +80,7 @@ Planner session_planner(const ScanPlanningOptions& options, const SessionState& 
   const Vec3 center = given_box(options.scene).value().center();
   Planner planner = options.planner(view_sphere(options.scene.views, state.radius, center), state.camera);
   tell_of_scans(planner, state.scans);
+  if (state.learner) planner.believe(state.learner->prediction());
   for (const auto& [candidate, reason] : state.set_aside) planner.set_aside(candidate, reason);
   for (const auto& [candidate, reason] : skipped) planner.discard(candidate, reason);
   return planner;

@@ -16,6 +16,7 @@ struct SessionState {
   std::optional<RangeCamera> camera;     // of the first depth image
   std::map<int, std::string> set_aside;  // candidates whose scans failed since the map changed last, with the reason
   bool box_was_seen = false;             // some scan has a point in the box
+  std::optional<ErrorLearner> learner;   // where the options ask for it: what the robot's errors have taught
 };
 
 /// The scans of a session merged one after the other, exactly as `plan` merges them.
@@ -36,9 +37,13 @@ class SessionModel {
   [[nodiscard]] SessionState state() const;
 
  private:
+  /// Where the sensor was sent for this scan: as it says, or to the candidate that it says. Nothing where it was not
+  /// planned.
+  [[nodiscard]] std::optional<View> commanded(const SessionScan& scan) const;
   void note_candidate(const SessionScan& scan, const ScanRecord& record);
 
   std::optional<double> given_radius_;
+  int views_;  // on the view sphere
   Box3 box_;
   std::unique_ptr<Registrar> registrar_;
   ScanModel scans_;

@@ -112,16 +112,22 @@ RangeCamera parse_camera(const nlohmann::json& json, const std::string& name) {
   return camera;
 }
 
+/// `what` is for errors.
+void require_pose(const View& view, const std::string& what) {
+  require(view.world_from_sensor.matrix().allFinite(), what, " has a number that is not finite");
+  require(is_near(view.position()), what, " is ", view.position().norm(), " m from the origin; must be within ",
+          farthest, " m");
+  (void)rigid_pose(view.world_from_sensor.matrix(), what);
+}
+
 /// JSON on one line; bytes that are no UTF-8 are replaced.
 std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
 
 void SessionScan::validate() const {
-  require(believed.world_from_sensor.matrix().allFinite(), "scan ", name, ": its pose has a number that is not finite");
-  require(is_near(believed.position()), "scan ", name, ": its pose is ", believed.position().norm(),
-          " m from the origin; must be within ", farthest, " m");
-  (void)rigid_pose(believed.world_from_sensor.matrix(), concat("scan ", name));
+  require_pose(believed, concat("scan ", name, ": its pose"));
+  if (commanded) require_pose(*commanded, concat("scan ", name, ": the commanded pose"));
   require(!candidate || *candidate >= 0, "scan ", name, ": candidate = ", candidate.value_or(0),
           ": must not be negative");
   if (const auto* image = std::get_if<ImageScan>(&scan)) {
@@ -147,6 +153,7 @@ std::string scan_bytes(const SessionScan& scan) {
   header["name"] = scan.name;
   header["candidate"] = scan.candidate ? Json(*scan.candidate) : Json(nullptr);
   header["believed"] = pose_columns(scan.believed.world_from_sensor);
+  if (scan.commanded) header["commanded"] = pose_columns(scan.commanded->world_from_sensor);
   std::string arrays;
   if (const auto* image = std::get_if<ImageScan>(&scan.scan)) {
     header["camera"] = camera_json(image->image.camera);
@@ -173,6 +180,7 @@ SessionScan parse_scan(std::string_view bytes, const std::string& name) {
   scan.name = text(header, "name", name);
   if (!member(header, "candidate", name).is_null()) scan.candidate = static_cast<int>(count(header, "candidate", name));
   scan.believed.world_from_sensor = pose(header, "believed", name);
+  if (header.contains("commanded")) scan.commanded.emplace().world_from_sensor = pose(header, "commanded", name);
   if (header.contains("camera")) {
     RangeImage image{parse_camera(header["camera"], name), {}};
     image.depth = take<float>(bytes, static_cast<std::size_t>(image.camera.resolution.rays()), name);

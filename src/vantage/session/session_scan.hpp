@@ -11,10 +11,11 @@ namespace vantage {
 
 /// A scan as it comes into a session.
 struct SessionScan {
-  std::string name;              // what people call it
-  View believed;                 // the robot's pose
-  Scan scan;                     // in the sensor's frame
-  std::optional<int> candidate;  // the candidate view that it was taken from, where it was a planned one
+  std::string name;                    // what people call it
+  View believed;                       // the robot's pose
+  Scan scan;                           // in the sensor's frame
+  std::optional<int> candidate;        // the candidate view that it was taken from, where it was a planned one
+  std::optional<View> commanded = {};  // where the sensor was sent; without it, the candidate's view at that time
 
   /// Throws InputError where the scan or its pose has numbers that are not finite.
   void validate() const;

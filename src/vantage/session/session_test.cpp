@@ -11,38 +11,13 @@
 #include "vantage/io/atomic_file.hpp"
 #include "vantage/io/io_test_util.hpp"
 #include "vantage/session/sealed_file.hpp"
+#include "vantage/session/session_test_util.hpp"
 
 namespace vantage {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-ScanPlanningOptions small_options() {
-  ScanPlanningOptions options;
-  options.scene.box = Eigen::Matrix<double, 6, 1>{{0.0, 0.0, 0.0, 1.0, 1.0, 1.0}};
-  options.scene.voxel = 0.1;
-  options.scene.views = 20;
-  options.scene.registration = "none";
-  return options;
-}
-
-/// A square plate of 0.4 m in the middle of the box, seen from `position`; what is beside it is not met.
-SessionScan plate_from(const Vec3& position) {
-  RangeImage image{camera_from_apertures(radians(45), radians(45), {40, 40}), {}};
-  image.camera.max_depth = 4.5;
-  const View view = view_towards(position, Vec3::Zero());
-  const Vec3 normal = position.normalized();
-  for (int row = 0; row < 40; ++row) {
-    for (int column = 0; column < 40; ++column) {
-      const Vec3 ray = view.world_from_sensor.linear() * point_in_sensor(image.camera.rays(), column, row, 1);
-      const double depth = -normal.dot(position) / normal.dot(ray);
-      const Vec3 hit = position + depth * ray;
-      image.depth.push_back(hit.cwiseAbs().maxCoeff() < 0.2 ? static_cast<float>(depth) : RangeImage::no_return);
-    }
-  }
-  return {"plate", view, scan_of(std::move(image)), std::nullopt};
-}
 
 std::vector<SessionScan> some_scans() {
   return {plate_from({0, 0, 2}), plate_from({1.5, 0.5, 1}), plate_from({-1, 1.5, 0.8}), plate_from({0.3, -2, 0.4})};
@@ -257,11 +232,14 @@ TEST(SessionScan, IsTheSameAfterStoring) {
   lines.origins = {{0.1, 0.18, 1.3}, {1, 0.18, 1.3}};
   lines.axis = -Vec3::UnitZ();
   SessionScan scan{"a \"name\"", view_towards({1, 2, 3}, {0.1, 0.2, 0.3}), lines, 17};
+  scan.commanded = view_towards({1.1, 2, 3}, {0.1, 0.2, 0.3});
   const SessionScan read = parse_scan(scan_bytes(scan), "scan");
   const auto& points = std::get<PointScan>(read.scan);
   EXPECT_EQ(read.name, scan.name);
   EXPECT_EQ(read.candidate, 17);
   EXPECT_EQ(read.believed.world_from_sensor.matrix(), scan.believed.world_from_sensor.matrix());
+  ASSERT_TRUE(read.commanded);
+  EXPECT_EQ(read.commanded->world_from_sensor.matrix(), scan.commanded->world_from_sensor.matrix());
   EXPECT_EQ(points.points, lines.points);
   EXPECT_EQ(points.normals, lines.normals);
   EXPECT_EQ(points.origins, lines.origins);
