@@ -3,17 +3,20 @@
 find_package(nanoflann REQUIRED)
 vantage_library(registration registration)
 target_link_libraries(vantage_registration PUBLIC vantage_core PRIVATE $<BUILD_INTERFACE:nanoflann::nanoflann>)
+vantage_unity(vantage_registration)
 
 vantage_require(simulation fmt)
 vantage_require(simulation embree 3)
 vantage_library(simulation simulation)
 target_link_libraries(vantage_simulation
   PUBLIC vantage_core PRIVATE embree $<BUILD_INTERFACE:nanoflann::nanoflann> fmt::fmt)
+vantage_unity(vantage_simulation)
 
 vantage_require(arm fcl)
 vantage_require(arm urdfdom)
 vantage_library(arm arm)
 target_link_libraries(vantage_arm PUBLIC vantage_core PRIVATE fcl urdfdom::urdfdom_model)
+vantage_unity(vantage_arm)
 
 vantage_require(full fmt)
 vantage_require(full nlohmann_json)
@@ -30,6 +33,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/vantage/session/session_re
   PROPERTIES COMPILE_DEFINITIONS VANTAGE_VERSION="${PROJECT_VERSION}")
 include(VantageViewer)
 target_sources(vantage_full PRIVATE ${vantage_viewer_source})
+vantage_unity(vantage_full)
 
 # The web server. Debian's cpp-httplib has no CMake file; its pkg-config file says with which definitions it was compiled,
 # and the sizes of its classes depend on them.
@@ -43,12 +47,15 @@ vantage_library(server server)
 target_link_libraries(vantage_server PUBLIC vantage_full
   PRIVATE fmt::fmt $<BUILD_INTERFACE:vantage_httplib> $<INSTALL_INTERFACE:cpp-httplib>)
 
+vantage_unity(vantage_server)
+
 find_package(CLI11 REQUIRED)
 file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)
 list(FILTER vantage_app_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(vantage ${vantage_app_sources})
 target_link_libraries(vantage PRIVATE vantage_full vantage_server vantage_build_settings fmt::fmt CLI11::CLI11)
 target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
+vantage_unity(vantage)
 set_target_properties(vantage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 
 # `mpirun vantage experiment ...` spreads the runs over many processes where MPI is installed.

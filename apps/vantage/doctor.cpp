@@ -14,7 +14,7 @@
 namespace vantage::app {
 namespace {
 
-struct Request {
+struct DoctorRequest {
   std::string scans;
   DoctorOptions options;
   ProgramOptions program;
@@ -47,7 +47,7 @@ void print_diagnosis(const Diagnosis& diagnosis) {
   if (!diagnosis.healthy()) fmt::print("{} to mend\n", diagnosis.findings.size());
 }
 
-void doctor(const Request& request) {
+void doctor(const DoctorRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   const bool shows_progress = !request.program.quiet && isatty(STDERR_FILENO) != 0;
   const Diagnosis diagnosis = examine(request.scans, request.options, [&](const std::string& what) {
@@ -65,7 +65,7 @@ void doctor(const Request& request) {
 }  // namespace
 
 void add_doctor(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<DoctorRequest>();
   CLI::App* command = program.add_subcommand("doctor", "Find what is wrong with real scans, and say how to mend it");
   command->add_option("scans", request->scans, "folder of depth frames or clouds with poses, or a Stanford .conf")
       ->required();

@@ -26,7 +26,7 @@ void describe(Place& place, Field&& field) {
   field("current", place.current, "m", "where the sensor is now");
 }
 
-struct Request {
+struct EvaluateRequest {
   std::string map;
   int top = 10;
   Place place;
@@ -75,7 +75,7 @@ void print_labels(const VoxelMap& map) {
   fmt::print(" mean quality {:.3f}\n\n", map.mean_quality());
 }
 
-void evaluate(Request& request) {
+void evaluate(EvaluateRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
   load_robot(request.options, request.given);
@@ -95,7 +95,7 @@ void evaluate(Request& request) {
 }  // namespace
 
 void add_evaluate(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<EvaluateRequest>();
   CLI::App* command = program.add_subcommand("evaluate", "Evaluate candidate views on a map from a file");
   command->add_option("map", request->map, "map file, NAME.nrrd with NAME.ply beside it")->required();
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();

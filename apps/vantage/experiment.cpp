@@ -21,7 +21,7 @@
 namespace vantage::app {
 namespace {
 
-struct Request {
+struct ExperimentRequest {
   std::string name;
   std::string out = "runs/experiments";
   ExperimentOptions options;
@@ -65,7 +65,7 @@ std::size_t failures_in(const std::vector<RunResult>& results) {
   return failed;
 }
 
-ExperimentReport write_report(const Request& request, const std::vector<Experiment>& experiments,
+ExperimentReport write_report(const ExperimentRequest& request, const std::vector<Experiment>& experiments,
                               const std::vector<RunResult>& results) {
   const std::filesystem::path folder(request.out);
   ExperimentReport report;
@@ -87,7 +87,8 @@ ExperimentReport write_report(const Request& request, const std::vector<Experime
 }
 
 /// The results on rank 0, nothing on the others.
-std::optional<std::vector<RunResult>> sweep(const Request& request, std::span<const SweepRun> runs, Ranks& ranks) {
+std::optional<std::vector<RunResult>> sweep(const ExperimentRequest& request, std::span<const SweepRun> runs,
+                                            Ranks& ranks) {
   SweepControl control;
   control.interrupted = was_interrupted;
   try {
@@ -108,7 +109,7 @@ std::optional<std::vector<RunResult>> sweep(const Request& request, std::span<co
   }
 }
 
-void experiment(const Request& request) {
+void experiment(const ExperimentRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   const std::vector<Experiment> experiments = make_experiments(request.name, request.options);
   const std::vector<SweepRun> runs = runs_of(experiments);
@@ -133,7 +134,7 @@ void experiment(const Request& request) {
 }  // namespace
 
 void add_experiment(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ExperimentRequest>();
   CLI::App* command = program.add_subcommand(
       "experiment", "Repeat the paper's tables and figures, with the paper's values beside ours");
   std::string names;

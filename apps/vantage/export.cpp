@@ -10,10 +10,10 @@
 namespace vantage::app {
 
 void add_export(CLI::App& program) {
-  struct Request {
+  struct ExportRequest {
     std::string map, out;
   };
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ExportRequest>();
   CLI::App* command = program.add_subcommand("export", "Write a map for other programs: OctoMap .bt");
   command->add_option("map", request->map, "map file, NAME.nrrd with NAME.ply beside it")->required();
   command->add_option("out", request->out, "file to write, NAME.bt")->required();

@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
 #include "cli_options.hpp"
+#include "clock.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "plan_table.hpp"
@@ -19,11 +19,7 @@
 namespace vantage::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-struct Request {
+struct PlanRequest {
   std::string scans;
   std::string out;
   int top = 10;
@@ -33,7 +29,7 @@ struct Request {
   ProgramOptions program;
 };
 
-RunDescription describe_run(Request& request, const Planner& planner, const ScanScene& fitted) {
+RunDescription describe_run(PlanRequest& request, const Planner& planner, const ScanScene& fitted) {
   RunDescription description;
   description.command = "plan";
   description.object = std::filesystem::path(request.scans).lexically_normal().stem().string();
@@ -47,7 +43,7 @@ RunDescription describe_run(Request& request, const Planner& planner, const Scan
   return description;
 }
 
-void plan(Request& request) {
+void plan(PlanRequest& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
@@ -93,7 +89,7 @@ void plan(Request& request) {
 }  // namespace
 
 void add_plan(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PlanRequest>();
   CLI::App* command = program.add_subcommand("plan", "Take real scans and say where to look next, with the reasons");
   command->add_option("scans", request->scans, "folder of depth frames or clouds with poses, or a Stanford .conf")
       ->required();

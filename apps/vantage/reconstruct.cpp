@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
 #include "cli_options.hpp"
+#include "clock.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "object_source.hpp"
@@ -19,11 +19,7 @@
 namespace vantage::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-struct Request {
+struct ReconstructRequest {
   std::string object;
   std::string out;
   bool report = true;
@@ -42,7 +38,8 @@ void print_progress(const ScanRecord& record, const std::string& travel_unit) {
       travel_unit, 1000 * record.timings.total(), record.merged ? record.reason : "NOT MERGED: " + record.verdict);
 }
 
-RunDescription describe_run(const Request& request, const std::string& object_name, const SimulatedObject& object) {
+RunDescription describe_run(const ReconstructRequest& request, const std::string& object_name,
+                            const SimulatedObject& object) {
   RunDescription description;
   description.command = "reconstruct";
   description.object = object_name;
@@ -60,7 +57,7 @@ RunDescription describe_run(const Request& request, const std::string& object_na
   return description;
 }
 
-RunSummary summarise(const Request& request, const std::string& object_name, const SimulatedObject& object,
+RunSummary summarise(const ReconstructRequest& request, const std::string& object_name, const SimulatedObject& object,
                      const SimulatedRun& run) {
   RunSummary summary;
   summary.object = object_name;
@@ -82,7 +79,7 @@ struct Audience {
   LiveRun live;
   std::unique_ptr<HttpServer> server;  // after what it shows
 
-  Audience(const Request& request, const std::filesystem::path& folder) {
+  Audience(const ReconstructRequest& request, const std::filesystem::path& folder) {
     if (!request.serve.empty()) {
       PageServerOptions options = request.server;
       options.port = port_from_text(request.serve, "--serve");
@@ -102,8 +99,8 @@ struct Audience {
   }
 };
 
-void print_result(const Request& request, const RunFolder& folder, const RunSummary& summary, const ObjectModel& model,
-                  double seconds) {
+void print_result(const ReconstructRequest& request, const RunFolder& folder, const RunSummary& summary,
+                  const ObjectModel& model, double seconds) {
   if (request.program.json) {
     fmt::print("{}\n", summary_json(model, summary).dump(2));
     return;
@@ -119,7 +116,7 @@ void print_result(const Request& request, const RunFolder& folder, const RunSumm
   fmt::print("written to {}{}\n", folder.path().string(), request.report ? "; open report.html there" : "");
 }
 
-void reconstruct(Request& request) {
+void reconstruct(ReconstructRequest& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
   load_robot(request.options, request.given);
@@ -155,7 +152,7 @@ void reconstruct(Request& request) {
 }  // namespace
 
 void add_reconstruct(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ReconstructRequest>();
   CLI::App* command =
       program.add_subcommand("reconstruct", "Simulate the whole loop: scan an object with planned views");
   command->add_option("object", request->object, "a built-in object (see `vantage objects`) or the path of a mesh")

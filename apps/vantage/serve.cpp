@@ -14,12 +14,12 @@
 namespace vantage::app {
 namespace {
 
-struct Request {
+struct ServeRequest {
   std::string folder;
   PageServerOptions server;
 };
 
-void serve_session(const Request& request) {
+void serve_session(const ServeRequest& request) {
   require(!request.server.token.empty() || is_loopback(request.server.host),
           "token: must be given where --bind = ", request.server.host,
           " lets other machines in: 16 or more letters and digits, in --token or the environment's VANTAGE_TOKEN");
@@ -37,7 +37,7 @@ void serve_session(const Request& request) {
   service.stop();
 }
 
-void serve(const Request& request) {
+void serve(const ServeRequest& request) {
   if (SessionFolder::is_session(request.folder)) {
     serve_session(request);
     return;
@@ -54,7 +54,7 @@ void serve(const Request& request) {
 }  // namespace
 
 void add_serve(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ServeRequest>();
   CLI::App* command = program.add_subcommand(
       "serve", "Show a reconstruction or experiment in the browser, or give a session to robots and browsers");
   command->add_option("folder", request->folder, "output folder of a reconstruction or experiment, or a session")

@@ -17,7 +17,7 @@
 namespace vantage::app {
 namespace {
 
-struct Request {
+struct SessionRequest {
   std::string folder;
   std::set<std::string> given;     // new: names of options that the user set
   ScanPlanningOptions options;     // new
@@ -31,7 +31,7 @@ struct Request {
   ProgramOptions program;
 };
 
-using Shared = std::shared_ptr<Request>;
+using Shared = std::shared_ptr<SessionRequest>;
 
 void tell_dropped(const SessionStatus& status) {
   for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", each);
@@ -39,20 +39,20 @@ void tell_dropped(const SessionStatus& status) {
     fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, reason);
 }
 
-void create(Request& request) {
+void create(SessionRequest& request) {
   load_robot(request.options.planning, request.given);
   Session::create(request.folder, request.options);
   if (!request.program.quiet) fmt::print("new session in {}\n", request.folder);
 }
 
-ScanFolderOptions reading_options(const Request& request, const Session& session) {
+ScanFolderOptions reading_options(const SessionRequest& request, const Session& session) {
   ScanFolderOptions reading = session.options().reading;
   const std::vector<OptionField> fields = option_fields(reading);
   for (const auto& [name, text] : request.changed) set_option(fields_named(fields, {name}).front(), text, "--" + name);
   return reading;
 }
 
-void add(Request& request) {
+void add(SessionRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
   tell_dropped(session.status());
@@ -81,7 +81,7 @@ void add(Request& request) {
   for (const std::string& warning : session.status().warnings) fmt::print(stderr, "vantage: {}\n", warning);
 }
 
-void next(Request& request) {
+void next(SessionRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
   require(request.reason.empty() || request.skip, "reason: belongs to --skip");
@@ -97,7 +97,7 @@ void next(Request& request) {
   }
 }
 
-void status(Request& request) {
+void status(SessionRequest& request) {
   Session session(request.folder);
   const SessionStatus status = session.status();
   tell_dropped(status);
@@ -112,7 +112,7 @@ void status(Request& request) {
   for (const auto& [candidate, reason] : status.skipped) fmt::print("view {} is skipped: {}\n", candidate, reason);
 }
 
-void finish(Request& request) {
+void finish(SessionRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
   tell_dropped(session.status());
@@ -134,7 +134,7 @@ std::vector<OptionField> noting_fields(const Shared& request) {
 
 /// Adds `session NAME DIR`.
 CLI::App* add_step(CLI::App& session, const char* name, const char* help, const Shared& request,
-                   void (*run)(Request&)) {
+                   void (*run)(SessionRequest&)) {
   CLI::App* step = session.add_subcommand(name, help);
   step->add_option("dir", request->folder, "folder of the session")->required();
   step->callback([request, run] { run(*request); });
@@ -148,12 +148,12 @@ void add_session(CLI::App& program) {
       "session", "Scan over hours: a folder that scans are added to and views are asked of, across restarts");
   session->require_subcommand(1);
 
-  const auto for_new = std::make_shared<Request>();
+  const auto for_new = std::make_shared<SessionRequest>();
   CLI::App* step = add_step(*session, "new", "Start a session; the options are those of plan", for_new, create);
   add_options(*step, noting(option_fields(for_new->options), for_new->given));
   add_program_options(*step, for_new->program);
 
-  const auto for_add = std::make_shared<Request>();
+  const auto for_add = std::make_shared<SessionRequest>();
   step =
       add_step(*session, "add", "Add scans with their poses; each is safe on disk once it is reported", for_add, add);
   step->add_option("scans", for_add->scans, "depth frames, clouds, folders of them, or Stanford .conf files")
@@ -162,7 +162,7 @@ void add_session(CLI::App& program) {
   add_options(*step, noting_fields(for_add));
   add_program_options(*step, for_add->program);
 
-  const auto for_next = std::make_shared<Request>();
+  const auto for_next = std::make_shared<SessionRequest>();
   step = add_step(*session, "next", "Say where to look next, with the reasons", for_next, next);
   step->add_option("--top", for_next->top, "views to print, best first")->capture_default_str();
   step->add_option("--skip", for_next->skip, "do not plan this view again");
@@ -170,11 +170,11 @@ void add_session(CLI::App& program) {
   step->add_option("--unskip", for_next->unskip, "plan this view again");
   add_program_options(*step, for_next->program);
 
-  const auto for_status = std::make_shared<Request>();
+  const auto for_status = std::make_shared<SessionRequest>();
   step = add_step(*session, "status", "Say how the session stands", for_status, status);
   add_program_options(*step, for_status->program);
 
-  const auto for_finish = std::make_shared<Request>();
+  const auto for_finish = std::make_shared<SessionRequest>();
   step = add_step(*session, "finish", "Write model, mesh, map, views.csv, summary.json and report.html", for_finish,
                   finish);
   add_program_options(*step, for_finish->program);

@@ -11,14 +11,14 @@
 namespace vantage::app {
 namespace {
 
-struct Request {
+struct ViewRequest {
   std::string folder;
   std::string png;
   std::string size = "1200x800";
   RunPicture picture;
 };
 
-void view(Request request) {
+void view(ViewRequest request) {
   const Resolution size = resolution_from_text("size", request.size);
   request.picture.width = size.columns;
   request.picture.height = size.rows;
@@ -34,7 +34,7 @@ void view(Request request) {
 }  // namespace
 
 void add_view(CLI::App& program) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ViewRequest>();
   CLI::App* command = program.add_subcommand("view", "Draw a picture of a run's model and views, without a browser");
   command->add_option("folder", request->folder, "output folder of a run")->required();
   command->add_option("--png", request->png, "file to write; FOLDER/view.png by default");

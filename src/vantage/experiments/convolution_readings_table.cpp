@@ -12,14 +12,14 @@ namespace {
 constexpr double published_sigma = 0.10;  // metres, per axis
 
 /// One reading of section 9: an error, and what else is different.
-struct Reading {
+struct ConvolutionReading {
   std::string name;
   std::function<void(ReconstructOptions&)> change = [](ReconstructOptions&) {};
   double sigma = published_sigma;
 };
 
-std::vector<Reading> readings() {
-  std::vector<Reading> all{{"figure 11: the sensor's rays, 10 cm"}};
+std::vector<ConvolutionReading> convolution_readings() {
+  std::vector<ConvolutionReading> all{{"figure 11: the sensor's rays, 10 cm"}};
   all.push_back({"cells of 17 cm, 25 per side", [](auto& o) { o.candidates = "cube:25:4.1:0.82:1.9"; }});
   all.push_back({.name = "error of 5 cm", .sigma = 0.05});
   all.push_back({.name = "error of 15 cm", .sigma = 0.15});
@@ -32,7 +32,7 @@ std::vector<Reading> readings() {
   return all;
 }
 
-struct Case {
+struct ReadingCase {
   std::string name;
   std::vector<RunGroup> groups;  // no error, error, convolved
 };
@@ -42,9 +42,9 @@ struct Case {
 Experiment convolution_readings_table(const ExperimentOptions& options) {
   using Kind = ExperimentTable::Column::Kind;
   Experiment experiment("figure11-readings");
-  std::vector<Case> cases;
+  std::vector<ReadingCase> cases;
   const PaperObject logo = paper_object("sgi_logo", options.folder());
-  for (const Reading& reading : readings()) {
+  for (const ConvolutionReading& reading : convolution_readings()) {
     const auto add = [&](const char* method, double sigma, const char* convolve) {
       ReconstructOptions run = free_flyer();
       reading.change(run);
@@ -74,7 +74,7 @@ Experiment convolution_readings_table(const ExperimentOptions& options) {
                      {"damage of the error [points]", 2, Kind::difference},
                      {"gain of convolution [points]", 2, Kind::difference},
                      {"scans to 95 % saved", 2, Kind::difference}};
-    for (const Case& reading : cases) {
+    for (const ReadingCase& reading : cases) {
       const auto runs = outcomes.paired(reading.groups, 2);
       std::vector<std::vector<double>> covered, scans;
       for (const std::vector<RunOutcome>& method : runs) {

@@ -11,24 +11,25 @@ namespace vantage {
 namespace {
 
 /// One reading of section 8.4: an object, options and initial views.
-struct Reading {
+struct GuaReading {
   std::string name;
   std::shared_ptr<const SweepObject> object;
   ReconstructOptions options;
   int starts = 20;
 };
 
-Reading changed(const Reading& base, const std::string& name, const std::function<void(ReconstructOptions&)>& change) {
-  Reading reading = base;
+GuaReading changed(const GuaReading& base, const std::string& name,
+                   const std::function<void(ReconstructOptions&)>& change) {
+  GuaReading reading = base;
   reading.name = name;
   change(reading.options);
   return reading;
 }
 
-std::vector<Reading> readings(const ExperimentOptions& options) {
+std::vector<GuaReading> gua_readings(const ExperimentOptions& options) {
   const std::shared_ptr<const SweepObject> mug = paper_object("mug", options.folder()).object;
-  const Reading base{"the mug, 20 initial views (figure 9)", mug, {}};
-  std::vector<Reading> all{base, base};
+  const GuaReading base{"the mug, 20 initial views (figure 9)", mug, {}};
+  std::vector<GuaReading> all{base, base};
   all.back().name = "the mug, all 80 initial views";
   all.back().starts = 80;
   all.push_back(changed(base, "multi-resolution search", [](auto& o) { o.search = "multi-resolution"; }));
@@ -65,9 +66,9 @@ std::vector<Reading> readings(const ExperimentOptions& options) {
 Experiment gua_readings_table(const ExperimentOptions& options) {
   using Kind = ExperimentTable::Column::Kind;
   Experiment experiment("figure9-readings");
-  const std::vector<Reading> all = readings(options);
+  const std::vector<GuaReading> all = gua_readings(options);
   std::vector<RunGroup> combined, gua;
-  for (const Reading& reading : all) {
+  for (const GuaReading& reading : all) {
     ReconstructOptions run = reading.options;
     combined.push_back(experiment.add(runs_from_starts(reading.name, reading.object, run, reading.starts)));
     run.utility = "gua";

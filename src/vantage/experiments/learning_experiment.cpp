@@ -49,7 +49,7 @@ const std::array<std::string, 4> planners{"as if there were none", "told", "lear
                                           "learned, twice at first"};
 constexpr std::array<double, 4> believed_first{0, 0, 0.5, 2};  // of the robot's deviation, where it is learned
 
-struct Case {
+struct LearningCase {
   double sigma;
   std::array<RunGroup, planners.size()> groups;
 };
@@ -133,9 +133,9 @@ Experiment learning_experiment(const ExperimentOptions& options) {
     return experiment.add(runs_with_seeds(fmt::format("sgi_logo, {}, {}", centimetres(sigma), method), logo.object, run,
                                           options.seeds, extra));
   };
-  std::vector<Case> cases;
+  std::vector<LearningCase> cases;
   for (const double sigma : sigmas) {
-    Case one{sigma, {}};
+    LearningCase one{sigma, {}};
     for (std::size_t k = 0; k < planners.size(); ++k) {
       const double first = believed_first[k] * sigma;
       one.groups[k] = k < 2 ? add(sigma, planners[k], k == 0 ? "off" : "on", std::nullopt, {})

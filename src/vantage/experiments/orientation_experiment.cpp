@@ -9,7 +9,7 @@ namespace {
 
 constexpr double position_sigma = 0.05;  // metres
 constexpr double angle_sigma = 3;        // degrees
-constexpr std::size_t scans_shown = 16;
+constexpr std::size_t scans_drawn = 16;
 
 struct Setting {
   const char* name;
@@ -27,7 +27,7 @@ std::vector<Setting> settings() {
   return result;
 }
 
-struct Case {
+struct OrientationCase {
   std::string title;
   RunGroup ignorant, sampled;
 };
@@ -37,7 +37,7 @@ struct Case {
 Experiment orientation_experiment(const ExperimentOptions& options) {
   using Kind = ExperimentTable::Column::Kind;
   Experiment experiment("orientation");
-  std::vector<Case> cases;
+  std::vector<OrientationCase> cases;
   for (const std::string object_name : {"mug", "sgi_logo"}) {
     const PaperObject object = paper_object(object_name, options.folder());
     for (const Setting& setting : settings()) {
@@ -68,7 +68,7 @@ Experiment orientation_experiment(const ExperimentOptions& options) {
     figure.name = "orientation-coverage";
     figure.title = "Coverage with errors of 5 cm and 3 degrees";
     figure.note = "Bands: 95 % interval of the mean. A finished run keeps its last value.";
-    for (const Case& each_case : cases) {
+    for (const OrientationCase& each_case : cases) {
       const auto runs = outcomes.paired({each_case.ignorant, each_case.sampled}, 2);
       const auto views = [](const RunOutcome& o) { return views_to(0.99, o); };
       const std::vector<double> without = each(runs[0], mean_coverage);
@@ -84,8 +84,8 @@ Experiment orientation_experiment(const ExperimentOptions& options) {
       chart.x.label = "scan";
       chart.x.ticks = PlotAxis::Ticks::whole;
       chart.y.label = "coverage [%]";
-      chart.series = {curve_over_scans("as if there were none", runs[0], "coverage", 0.01, scans_shown),
-                      curve_over_scans("sampled poses", runs[1], "coverage", 0.01, scans_shown)};
+      chart.series = {curve_over_scans("as if there were none", runs[0], "coverage", 0.01, scans_drawn),
+                      curve_over_scans("sampled poses", runs[1], "coverage", 0.01, scans_drawn)};
       figure.plots.emplace_back(chart);
     }
     return {table, figure};

@@ -7,22 +7,22 @@
 namespace vantage {
 namespace {
 
-constexpr double sigma = 0.10;                // metres, per axis
-constexpr std::size_t scans_shown = 18;       // the paper's longest run
+constexpr double figure11_sigma = 0.10;       // metres, per axis
+constexpr std::size_t longest_run = 18;       // the paper's longest run
 constexpr double published_coverage = 0.995;  // that figure 11 goes up to
 
-struct Method {
+struct ConvolutionMethod {
   std::string name;
   bool errs, convolves;
   double logo_views;  // to 99.5 % of the SGI logo as published (section 9)
 };
 
-const std::array<Method, 3> methods{
+const std::array<ConvolutionMethod, 3> convolution_methods{
     {{"no error", false, false, 9}, {"error", true, false, 18}, {"error, convolved", true, true, 12}}};
 
-ReconstructOptions options_of(const Method& method) {
+ReconstructOptions options_of(const ConvolutionMethod& method) {
   ReconstructOptions options = free_flyer();
-  if (method.errs) options.positioning_error = Vec3::Constant(sigma);
+  if (method.errs) options.positioning_error = Vec3::Constant(figure11_sigma);
   if (method.convolves) options.convolve = "on";
   return options;
 }
@@ -45,7 +45,7 @@ ExperimentTable::Row views_row(const PaperObject& object, const std::vector<std:
   for (std::size_t k = 0; k < runs.size(); ++k) {
     views.push_back(each(runs[k], [coverage](const RunOutcome& o) { return views_to(coverage, o); }));
     Estimate needed = estimate(views.back());
-    if (is_logo(object) && coverage == published_coverage) needed.published = methods[k].logo_views;
+    if (is_logo(object) && coverage == published_coverage) needed.published = convolution_methods[k].logo_views;
     row.cells.emplace_back(needed);
   }
   row.cells.emplace_back(paired_difference(views[2], views[1]));
@@ -58,9 +58,9 @@ LineChart coverage_chart(const PaperObject& object, const std::vector<std::vecto
   chart.x.label = "scan";
   chart.x.ticks = PlotAxis::Ticks::whole;
   chart.y.label = "coverage [%]";
-  for (std::size_t k = 0; k < methods.size(); ++k) {
-    chart.series.push_back(curve_over_scans(methods[k].name, runs[k], "coverage", 0.01, scans_shown));
-    if (is_logo(object)) chart.paper.push_back({methods[k].logo_views, 100 * published_coverage});
+  for (std::size_t k = 0; k < convolution_methods.size(); ++k) {
+    chart.series.push_back(curve_over_scans(convolution_methods[k].name, runs[k], "coverage", 0.01, longest_run));
+    if (is_logo(object)) chart.paper.push_back({convolution_methods[k].logo_views, 100 * published_coverage});
   }
   return chart;
 }
@@ -92,7 +92,7 @@ Experiment positioning_error_figure(const std::string& name, const std::vector<s
   for (const std::string& object_name : object_names) {
     const PaperObject object = paper_object(object_name, options.folder());
     std::vector<RunGroup> groups;
-    for (const Method& method : methods) {
+    for (const ConvolutionMethod& method : convolution_methods) {
       groups.push_back(experiment.add(runs_with_seeds(fmt::format("{}, {}", object_name, method.name), object.object,
                                                       options_of(method), options.seeds)));
     }

@@ -7,23 +7,23 @@
 namespace vantage {
 namespace {
 
-constexpr double sigma = 0.10;  // metres per axis
+constexpr double registration_sigma = 0.10;  // metres per axis
 
-struct Method {
+struct RegistrationMethod {
   const char* name;
   bool wants_overlap, convolves;
 };
 
-constexpr Method methods[] = {{"overlap", true, false},
-                              {"no overlap", false, false},
-                              {"overlap, convolved", true, true},
-                              {"no overlap, convolved", false, true}};
+constexpr RegistrationMethod registration_methods[] = {{"overlap", true, false},
+                                                       {"no overlap", false, false},
+                                                       {"overlap, convolved", true, true},
+                                                       {"no overlap, convolved", false, true}};
 
-ReconstructOptions options_of(const Method& method) {
+ReconstructOptions options_of(const RegistrationMethod& method) {
   ReconstructOptions options = free_flyer();
   options.max_views = 20;
   options.registration = "icp";
-  options.positioning_error = Vec3::Constant(sigma);
+  options.positioning_error = Vec3::Constant(registration_sigma);
   if (method.convolves) options.convolve = "on";
   if (!method.wants_overlap) {
     // The factor of eq. 7 then grows with the share of occplane voxels alone: the best view sees nothing that is known.
@@ -57,7 +57,7 @@ Experiment registration_experiment(const ExperimentOptions& options) {
   for (const std::string object_name : {"mug", "sgi_logo"}) {
     const PaperObject object = paper_object(object_name, options.folder());
     std::vector<RunGroup> groups;
-    for (const Method& method : methods)
+    for (const RegistrationMethod& method : registration_methods)
       groups.push_back(experiment.add(runs_with_seeds(fmt::format("{}, ICP, {}", object_name, method.name),
                                                       object.object, options_of(method), options.seeds)));
     objects.emplace_back(object.title(), groups);
@@ -93,7 +93,7 @@ Experiment registration_experiment(const ExperimentOptions& options) {
           more_failures = paired_difference(first_refused, failures);
           more_coverage = paired_difference(first_coverage, coverage);
         }
-        table.rows.push_back({fmt::format("{}: {}", title, methods[k].name),
+        table.rows.push_back({fmt::format("{}: {}", title, registration_methods[k].name),
                               {estimate(failures), more_failures, estimate(each(runs[k], overlap)),
                                estimate(each(runs[k], worst_merged)), estimate(coverage), more_coverage,
                                estimate(numbers(runs[k], "views"))}});

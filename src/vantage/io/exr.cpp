@@ -72,7 +72,7 @@ struct Window {
   friend bool operator==(const Window&, const Window&) = default;
 };
 
-struct Header {
+struct ExrHeader {
   std::vector<Channel> channels;
   std::optional<Window> data, display;
   Compression compression = none;
@@ -101,8 +101,8 @@ Compression checked_compression(std::uint8_t number, const std::string& name) {
   return static_cast<Compression>(number);
 }
 
-Header read_header(ByteReader& reader, const std::string& name) {
-  Header header;
+ExrHeader read_exr_header(ByteReader& reader, const std::string& name) {
+  ExrHeader header;
   while (true) {
     const std::string_view key = reader.word();
     if (key.empty()) return header;
@@ -117,7 +117,7 @@ Header read_header(ByteReader& reader, const std::string& name) {
   }
 }
 
-Resolution resolution_of(const Header& header, const std::string& name) {
+Resolution resolution_of(const ExrHeader& header, const std::string& name) {
   require(header.data && header.display && !header.channels.empty(), name,
           ": its header has no channels, dataWindow or displayWindow");
   const Window& window = *header.data;
@@ -229,7 +229,7 @@ FloatImage decode_exr(std::string_view bytes, const std::string& name) {
   const auto version = reader.take<std::uint32_t>();
   require((version & 0xffU) == 2, name, ": is OpenEXR of version ", version & 0xffU, "; must be version 2");
   require((version & 0x1a00U) == 0, name, ": has tiles, deep pixels or several parts; must be saved as scan lines");
-  const Header header = read_header(reader, name);
+  const ExrHeader header = read_exr_header(reader, name);
   FloatImage image;
   image.resolution = resolution_of(header, name);
   const std::size_t chosen = depth_channel(header.channels, name);

@@ -41,7 +41,7 @@ int whole(const TextReader& text, std::string_view field, double value, int leas
   return static_cast<int>(value);
 }
 
-struct Header {
+struct NrrdHeader {
   bool has_type = false, has_encoding = false;
   std::optional<Index3> sizes;
   std::optional<double> length;
@@ -60,7 +60,7 @@ double voxel_length(const TextReader& text, std::string_view value) {
   return length;
 }
 
-void read_field(const TextReader& text, std::string_view field, std::string_view value, Header& header) {
+void read_field(const TextReader& text, std::string_view field, std::string_view value, NrrdHeader& header) {
   const auto demand = [&](bool holds, std::string_view right) {
     if (!holds) text.fail(fmt::format("{}: {} must be {}", field, in_quotes(value), right));
   };
@@ -99,11 +99,11 @@ IndexBox read_enclosure(const TextReader& text, std::string_view value) {
   return box;
 }
 
-Header read_header(TextReader& text) {
+NrrdHeader read_nrrd_header(TextReader& text) {
   if (!text.next_line() || text.rest_of_line().size() != 8 || text.rest_of_line().substr(0, 7) != "NRRD000") {
     throw InputError(text.name() + ": is not a NRRD file (its first line must be 'NRRD0005')");
   }
-  Header header;
+  NrrdHeader header;
   while (text.next_line()) {
     const std::string_view line = text.rest_of_line();
     if (line.empty()) return header;
@@ -140,7 +140,7 @@ double origin(double min, double length) {
 
 Nrrd parse_nrrd(std::string_view bytes, const std::string& name) {
   TextReader text(bytes, name);
-  const Header header = read_header(text);
+  const NrrdHeader header = read_nrrd_header(text);
   require(header.has_type, name, ": the header has no field 'type'");
   require(header.has_encoding, name, ": the header has no field 'encoding'");
   require(header.sizes.has_value(), name, ": the header has no field 'sizes'");

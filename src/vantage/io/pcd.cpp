@@ -30,7 +30,7 @@ struct FieldLayout {
 
 enum class Data { ascii, binary, compressed };
 
-struct Header {
+struct PcdHeader {
   std::vector<FieldLayout> fields;
   std::uint64_t width = 0, height = 0;
   std::optional<std::uint64_t> points;
@@ -45,7 +45,7 @@ struct Header {
   }
 };
 
-void read_fields(TextReader& text, Header& header) {
+void read_fields(TextReader& text, PcdHeader& header) {
   for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
     if (header.fields.size() == most_fields) text.fail(fmt::format("more than {} fields", most_fields));
     header.fields.push_back({.name = std::string(word)});
@@ -93,7 +93,7 @@ std::uint64_t read_side(TextReader& text, std::string_view what) {
   return side;
 }
 
-void check(const TextReader& text, const Header& header) {
+void check(const TextReader& text, const PcdHeader& header) {
   if (header.fields.empty()) text.fail("the header has no FIELDS");
   if (header.width == 0 || header.height == 0) text.fail("WIDTH and HEIGHT must be given and positive");
   if (header.width * header.height > most_points) text.fail("WIDTH times HEIGHT is too large");
@@ -106,8 +106,8 @@ void check(const TextReader& text, const Header& header) {
   }
 }
 
-Header read_header(TextReader& text) {
-  Header header;
+PcdHeader read_pcd_header(TextReader& text) {
+  PcdHeader header;
   while (text.next_line_with_words()) {
     const std::string_view keyword = text.word();
     if (keyword == "FIELDS") {
@@ -160,7 +160,7 @@ double binary_value(const FieldLayout& field, const char* at) {
 }
 
 /// Binary data lies point by point, compressed data field by field.
-std::vector<double> binary_field(const Header& header, std::size_t field_index, std::string_view data) {
+std::vector<double> binary_field(const PcdHeader& header, std::size_t field_index, std::string_view data) {
   const FieldLayout& field = header.fields[field_index];
   std::size_t bytes_before = 0;
   for (std::size_t f = 0; f < field_index; ++f) bytes_before += header.fields[f].size();
@@ -194,7 +194,7 @@ std::string uncompressed(std::string_view data, std::size_t expected, const std:
   return result;
 }
 
-std::vector<Pcd::Field> read_ascii(TextReader& text, const Header& header) {
+std::vector<Pcd::Field> read_ascii(TextReader& text, const PcdHeader& header) {
   const std::size_t count = header.count();
   if (count > text.rest().size()) {
     throw InputError(fmt::format("{}: {} points are announced, but only {} bytes follow; the file is cut off",
@@ -217,7 +217,7 @@ std::vector<Pcd::Field> read_ascii(TextReader& text, const Header& header) {
   return fields;
 }
 
-std::vector<Pcd::Field> read_binary(std::string_view data, const Header& header, const std::string& name) {
+std::vector<Pcd::Field> read_binary(std::string_view data, const PcdHeader& header, const std::string& name) {
   std::string plain;
   const std::size_t record = header.record_bytes();
   if (header.data == Data::compressed) {
@@ -244,7 +244,7 @@ const std::vector<double>* Pcd::find(std::string_view field) const {
 
 Pcd parse_pcd(std::string_view bytes, const std::string& name) {
   TextReader text(bytes, name);
-  const Header header = read_header(text);
+  const PcdHeader header = read_pcd_header(text);
   Pcd pcd;
   pcd.size = {static_cast<int>(header.width), static_cast<int>(header.height)};
   pcd.viewpoint = header.viewpoint;

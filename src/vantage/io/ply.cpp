@@ -71,7 +71,7 @@ struct Layout {
   Type type = Type::float32;
 };
 
-struct Header {
+struct PlyHeader {
   Encoding encoding = Encoding::ascii;
   Ply content;                               // columns still without values
   std::vector<std::vector<Layout>> layouts;  // as content.elements and their columns
@@ -84,7 +84,7 @@ Type read_type(TextReader& text) {
   return *type;
 }
 
-void read_property(TextReader& text, Header& header) {
+void read_property(TextReader& text, PlyHeader& header) {
   if (header.content.elements.empty()) text.fail("a property must follow an element");
   PlyColumn column;
   Layout layout;
@@ -118,8 +118,8 @@ Encoding read_format(TextReader& text) {
   text.fail(fmt::format("format {}: must be ascii, binary_little_endian or binary_big_endian", in_quotes(format)));
 }
 
-Header read_header(TextReader& text) {
-  Header header;
+PlyHeader read_ply_header(TextReader& text) {
+  PlyHeader header;
   bool has_format = false;
   if (!text.next_line() || trimmed(text.rest_of_line()) != "ply") {
     throw InputError(text.name() + ": is not a PLY file (its first line must be 'ply')");
@@ -296,7 +296,7 @@ void read_element(Source& source, const std::vector<Layout>& layouts, PlyElement
 }
 
 template <class Source>
-void read_elements(Source source, Header& header, const std::string& name) {
+void read_elements(Source source, PlyHeader& header, const std::string& name) {
   for (std::size_t e = 0; e < header.content.elements.size(); ++e) {
     read_element(source, header.layouts[e], header.content.elements[e], name);
   }
@@ -326,7 +326,7 @@ const PlyElement* Ply::find(std::string_view element) const {
 Ply parse_ply(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) throw InputError(name + ": is empty");
   TextReader text(bytes, name);
-  Header header = read_header(text);
+  PlyHeader header = read_ply_header(text);
   if (header.encoding == Encoding::ascii) {
     read_elements(AsciiSource(text), header, name);
   } else {

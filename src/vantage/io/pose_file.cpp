@@ -14,10 +14,9 @@
 namespace vantage {
 namespace {
 
-using nlohmann::json;
-
 /// The first of the keys that the object has.
-const json& member(const json& object, std::initializer_list<const char*> keys, const std::string& name) {
+const nlohmann::json& member(const nlohmann::json& object, std::initializer_list<const char*> keys,
+                             const std::string& name) {
   for (const char* key : keys) {
     if (object.contains(key)) return object[key];
   }
@@ -26,7 +25,7 @@ const json& member(const json& object, std::initializer_list<const char*> keys, 
 
 /// The numbers of a list, or of an object by its keys.
 template <std::size_t Count>
-std::array<double, Count> numbers(const json& value, const std::array<const char*, Count>& keys,
+std::array<double, Count> numbers(const nlohmann::json& value, const std::array<const char*, Count>& keys,
                                   const std::string& what) {
   std::array<double, Count> result{};
   require(value.is_object() || (value.is_array() && value.size() == Count), what, ": must be a list of ", Count,
@@ -38,7 +37,7 @@ std::array<double, Count> numbers(const json& value, const std::array<const char
   return result;
 }
 
-Eigen::Matrix4d matrix_of(const json& rows, const std::string& what) {
+Eigen::Matrix4d matrix_of(const nlohmann::json& rows, const std::string& what) {
   require(rows.is_array() && rows.size() == 4, what, ": must be a list of 4 rows");
   Eigen::Matrix4d matrix;
   for (std::size_t row = 0; row < 4; ++row) {
@@ -80,7 +79,7 @@ Pose parse_pose_text(std::string_view bytes, const std::string& name) {
 }
 
 Pose parse_pose_json(std::string_view bytes, const std::string& name) {
-  const json object = parse_json(bytes, name);
+  const nlohmann::json object = parse_json(bytes, name);
   require(object.is_object(), name, ": must be a JSON object with 'position' and 'orientation', or with 'matrix'");
   if (object.contains("matrix")) return rigid_pose(matrix_of(object["matrix"], name + ": matrix"), name);
   const auto [x, y, z] =

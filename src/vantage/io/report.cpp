@@ -20,8 +20,6 @@ constexpr std::size_t max_triangles = 60000;
 constexpr std::string_view data_place = R"(<script type="application/json" id="vantage-data"></script>)";
 constexpr std::string_view static_place = "<!--vantage-static-->";
 
-Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);

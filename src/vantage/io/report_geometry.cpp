@@ -14,8 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
 /// The mesh with all vertices of a lattice cell merged.
 TriangleMesh clustered(const TriangleMesh& mesh, double cell) {
   const Vec3 origin = mesh.box().min();
@@ -44,6 +42,8 @@ TriangleMesh clustered(const TriangleMesh& mesh, double cell) {
 }
 
 }  // namespace
+
+Json point_json(const Vec3& point) { return {point.x(), point.y(), point.z()}; }
 
 TriangleMesh thinned(const TriangleMesh& mesh, std::size_t max_triangles) {
   if (mesh.triangles.size() <= max_triangles) return mesh;

@@ -21,6 +21,8 @@ struct QuantisedPoints {
 };
 [[nodiscard]] QuantisedPoints quantised(const std::vector<Vec3>& points);
 
+[[nodiscard]] nlohmann::ordered_json point_json(const Vec3& point);
+
 /// The `mesh` object of docs/report-data.md, or null for an empty mesh.
 [[nodiscard]] nlohmann::ordered_json mesh_json(const TriangleMesh& mesh, std::size_t max_triangles);
 /// The `cloud` object, or null for an empty cloud; `scan_of_point` may be empty. Keeps every k-th point.

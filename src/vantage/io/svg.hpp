@@ -31,6 +31,8 @@ enum class Anchor { start, middle, end };
 /// The width of a text in the plots' letters of 12 px, roughly.
 [[nodiscard]] double text_width(std::string_view content);
 
+inline constexpr double title_height = 24;  // px, above a drawing
+
 /// The element <svg class="plot"> around a drawing, with a title that screen readers say.
 [[nodiscard]] std::string picture(double width, double height, std::string_view title, std::string_view content);
 

@@ -13,8 +13,7 @@ namespace vantage {
 namespace {
 
 using svg::number;
-
-constexpr double title_height = 24;
+using svg::title_height;
 
 svg::Scale value_scale(const std::vector<double>& values, std::optional<double> low, std::optional<double> high) {
   std::vector<double> ends = values;

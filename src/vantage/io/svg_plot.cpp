@@ -11,8 +11,9 @@ namespace vantage {
 namespace {
 
 using svg::number;
+using svg::title_height;
 
-constexpr double title_height = 24, axis_height = 44, right_margin = 14;
+constexpr double axis_height = 44, right_margin = 14;
 
 void require_length(std::size_t length, std::size_t wanted, const std::string& series, const char* what) {
   require(length == wanted, "plot series '", series, "' has ", length, " values of ", what, ": must have ", wanted);

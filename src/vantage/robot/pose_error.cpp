@@ -47,7 +47,7 @@ void PoseError::validate() const {
   require((covariance - covariance.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale,
           "pose error: the covariance is not symmetric");
   if (scale <= 0) return;
-  const double least = Eigen::SelfAdjointEigenSolver<Matrix>(covariance).eigenvalues()[0];
+  const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance).eigenvalues()[0];
   require(least >= -1e-9 * scale, "pose error: the covariance has the eigenvalue ", least,
           ": it must be positive semi-definite");
 }

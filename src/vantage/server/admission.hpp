@@ -21,6 +21,9 @@ struct Refusal {
   std::string text;
 };
 
+/// In small letters (ASCII), as names in headers compare.
+[[nodiscard]] std::string lower(std::string text);
+
 /// Why the caller is not let in by a server with this token (empty: whoever is on this machine), or nothing. Without a
 /// token the request must name this machine, which keeps other web pages from reaching the server through DNS. Pages of
 /// other servers are refused in any case. `cookie` is the name of the cookie that holds the token.

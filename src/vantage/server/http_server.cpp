@@ -21,11 +21,6 @@ constexpr std::size_t most_dropped = std::size_t{256} << 20U;  // bytes of a ref
 constexpr std::chrono::milliseconds event_patience{1000};
 constexpr int quiet_rounds = 15;  // of event_patience, then a greeting tells the browser that we are alive
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 std::optional<HttpRoute::Method> method_of(const httplib::Request& request) {
   if (request.method == "GET" || request.method == "HEAD") return HttpRoute::Method::get;
   if (request.method == "POST") return HttpRoute::Method::post;

@@ -9,7 +9,6 @@
 namespace vantage {
 namespace {
 
-using Json = nlohmann::json;
 using Names = std::initializer_list<std::string_view>;
 
 std::string listed(Names names) {
@@ -46,10 +45,10 @@ bool query_is_yes(const HttpRequest& request, const std::string& name) {
   return found->second == "yes";
 }
 
-Json body_object(const HttpRequest& request, Names known) {
+nlohmann::json body_object(const HttpRequest& request, Names known) {
   require_query(request, {});
-  if (request.body.empty()) return Json::object();
-  Json json = parse_json(request.body, "body");
+  if (request.body.empty()) return nlohmann::json::object();
+  nlohmann::json json = parse_json(request.body, "body");
   require(json.is_object(), "body: must be an object, is ", json.type_name());
   for (const auto& [key, value] : json.items()) {
     require(is_one_of(key, known), "body: key '", key, "' is not known; ", listed(known));
@@ -57,15 +56,15 @@ Json body_object(const HttpRequest& request, Names known) {
   return json;
 }
 
-int body_candidate(const Json& body, int views) {
+int body_candidate(const nlohmann::json& body, int views) {
   require(body.contains("candidate"), "body: has no 'candidate'; must be one of the views 0 .. ", views - 1);
-  const Json& value = body["candidate"];
+  const nlohmann::json& value = body["candidate"];
   require(value.is_number_integer(), "candidate: must be a whole number, is ", value.type_name());
   require(value >= 0 && value < views, "candidate = ", value.dump(), ": must be one of the views 0 .. ", views - 1);
   return value.get<int>();
 }
 
-std::string body_text(const Json& body, const std::string& key) {
+std::string body_text(const nlohmann::json& body, const std::string& key) {
   require(body.contains(key) && body[key].is_string() && !body[key].get<std::string>().empty(), key,
           ": must be text that is not empty");
   return body[key].get<std::string>();

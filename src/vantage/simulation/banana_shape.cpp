@@ -7,9 +7,9 @@
 namespace vantage {
 namespace {
 
-constexpr int segments = 60;
+constexpr int banana_segments = 60;
 constexpr double arc_radius = 0.62;  // of the middle line, in units of its length
-constexpr double half_width = 0.0885;
+constexpr double banana_half_width = 0.0885;
 
 /// Share of the full thickness along the middle line: tip, body, neck, stem.
 std::vector<OutlinePoint> thickness_along_length() {
@@ -36,7 +36,7 @@ std::vector<OutlinePoint> thickness_along_length() {
 /// Distance of the skin from the middle line: a pentagon with rounded edges in the body, round at the ends.
 double skin(double angle, double thickness) {
   const double edges = 0.045 * thickness * thickness;
-  return half_width * thickness * (1 + edges * std::cos(5 * angle));
+  return banana_half_width * thickness * (1 + edges * std::cos(5 * angle));
 }
 
 }  // namespace
@@ -55,8 +55,8 @@ TriangleMesh banana_shape() {
     const Vec3 across = Vec3::UnitY();
     middle = arc_radius * out;
     std::vector<Vec3> points;
-    for (int k = 0; k < segments; ++k) {
-      const double angle = 2 * std::numbers::pi * k / segments;
+    for (int k = 0; k < banana_segments; ++k) {
+      const double angle = 2 * std::numbers::pi * k / banana_segments;
       const double radius = skin(angle, section.y());
       points.emplace_back(middle + radius * (std::cos(angle) * out + std::sin(angle) * across));
     }

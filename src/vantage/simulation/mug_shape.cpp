@@ -15,8 +15,8 @@ constexpr double wall = 0.045;
 constexpr double foot = 0.05;  // radius of the rounding between base and wall
 constexpr double floor_height = 0.07;
 
-constexpr int segments = 96;    // around the body
-constexpr int wall_rings = 48;  // along the outer wall
+constexpr int body_segments = 96;  // around the body
+constexpr int wall_rings = 48;     // along the outer wall
 constexpr int handle_rings = 72;
 
 // Where the handle grows out of the wall: blocks of the wall's quads around angle 0.
@@ -42,7 +42,7 @@ Eigen::Vector2d rounded(const Eigen::Vector2d& place) {
 
 /// A vertex of the outer wall. Around angle 0 the grid of rings and columns gives way to the ends of the handle.
 Vec3 wall_point(int ring, int column) {
-  const int signed_column = column < segments / 2 ? column : column - segments;
+  const int signed_column = column < body_segments / 2 ? column : column - body_segments;
   double moved_ring = ring;
   double moved_column = signed_column;
   for (const int block : {lower_block, upper_block}) {
@@ -54,7 +54,7 @@ Vec3 wall_point(int ring, int column) {
     moved_column = moved.x() * block_half_width;
     moved_ring = middle + moved.y() * 0.5 * block_height;
   }
-  const double angle = 2 * std::numbers::pi * moved_column / segments;
+  const double angle = 2 * std::numbers::pi * moved_column / body_segments;
   const double z = wall_height(moved_ring);
   return {outer_radius(z) * std::cos(angle), outer_radius(z) * std::sin(angle), z};
 }
@@ -81,7 +81,7 @@ std::vector<OutlinePoint> inside(const OutlinePoint& top) {
 /// left corner.
 Ring block_border(const std::vector<Ring>& rings, int first) {
   const auto vertex = [&](int ring, int column) {
-    return rings[static_cast<std::size_t>(ring)][static_cast<std::size_t>((column + segments) % segments)];
+    return rings[static_cast<std::size_t>(ring)][static_cast<std::size_t>((column + body_segments) % body_segments)];
   };
   const int last = first + block_height;
   constexpr int w = block_half_width;
@@ -105,7 +105,7 @@ Ring turned_over(const Ring& border) {
 }
 
 bool in_block(int band, int column) {
-  const bool in_columns = column < block_half_width || column >= segments - block_half_width;
+  const bool in_columns = column < block_half_width || column >= body_segments - block_half_width;
   const auto in_rings = [&](int first) { return band >= first && band < first + block_height; };
   return in_columns && (in_rings(lower_block) || in_rings(upper_block));
 }
@@ -177,10 +177,10 @@ TriangleMesh mug_shape() {
   const auto rounding = arc({wall_start - foot, foot}, foot, -std::numbers::pi / 2, 0, 8);
   base.insert(base.end(), rounding.begin(), rounding.end() - 1);  // the wall starts with the last point
 
-  Ring last = surface.add_circle(base.front(), segments);
+  Ring last = surface.add_circle(base.front(), body_segments);
   surface.close_start({0, 0, base.front().y()}, last);
   const auto go_on = [&](const OutlinePoint& point) {
-    Ring next = surface.add_circle(point, segments);
+    Ring next = surface.add_circle(point, body_segments);
     surface.join(last, next);
     last = std::move(next);
   };
@@ -189,12 +189,12 @@ TriangleMesh mug_shape() {
   std::vector<Ring> rings;
   for (int ring = 0; ring <= wall_rings; ++ring) {
     std::vector<Vec3> points;
-    for (int column = 0; column < segments; ++column) points.push_back(wall_point(ring, column));
+    for (int column = 0; column < body_segments; ++column) points.push_back(wall_point(ring, column));
     rings.push_back(surface.add_ring(points));
   }
   surface.join(last, rings.front());
   for (int band = 0; band < wall_rings; ++band) {
-    for (int column = 0; column < segments; ++column) {
+    for (int column = 0; column < body_segments; ++column) {
       if (in_block(band, column)) continue;
       surface.join_segment(rings[static_cast<std::size_t>(band)], rings[static_cast<std::size_t>(band) + 1],
                            static_cast<std::size_t>(column));

@@ -11,7 +11,7 @@ namespace {
 constexpr double inner = 0.56;  // where the tube runs inside a face instead of along the cube's edge
 constexpr double tube_radius = 0.199;
 constexpr double bend_radius = 1.05 * tube_radius;
-constexpr int segments = 32;  // around the tube; a multiple of 4, so that quarter turns of the section fit
+constexpr int tube_segments = 32;  // around the tube; a multiple of 4, so that quarter turns of the section fit
 constexpr int bend_steps = 10;
 constexpr int straight_steps = 8;
 
@@ -77,8 +77,8 @@ TriangleMesh sgi_logo_shape() {
   std::vector<Ring> rings;
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     std::vector<Vec3> points;
-    for (int k = 0; k < segments; ++k) {
-      const double angle = 2 * std::numbers::pi * k / segments;
+    for (int k = 0; k < tube_segments; ++k) {
+      const double angle = 2 * std::numbers::pi * k / tube_segments;
       const Vec3 offset = tube_radius * (std::cos(angle) * all[i].across + std::sin(angle) * all[i].beside);
       points.emplace_back(rotation * (all[i].middle + offset));
     }
@@ -88,9 +88,10 @@ TriangleMesh sgi_logo_shape() {
   // The loop closes with the vertices that face each other after the turns.
   const Vec3& across = all.back().across;
   const double turned = std::atan2(across.dot(all.front().beside), across.dot(all.front().across));
-  const auto shift = static_cast<int>(std::lround(turned / (2 * std::numbers::pi) * segments)) + segments;
+  const auto shift = static_cast<int>(std::lround(turned / (2 * std::numbers::pi) * tube_segments)) + tube_segments;
   Ring end;
-  for (int k = 0; k < segments; ++k) end.push_back(rings.front()[static_cast<std::size_t>((k + shift) % segments)]);
+  for (int k = 0; k < tube_segments; ++k)
+    end.push_back(rings.front()[static_cast<std::size_t>((k + shift) % tube_segments)]);
   surface.join(rings.back(), end);
   return std::move(surface).take();
 }
