@@ -85,11 +85,6 @@ Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics, cons
   return std::visit(scan, pixels);
 }
 
-Scan scan_of_depth(std::string_view bytes, const Intrinsics& intrinsics, const ScanFolderOptions& options,
-                   const std::string& name) {
-  return scan_of_depth(decode_depth(bytes, intrinsics.resolution, name), intrinsics, std::nullopt, options);
-}
-
 Scan scan_of_cloud(const CloudFile& file, const Pose& world_from_sensor, const ScanFolderOptions& options) {
   const double metres = options.metres_per_unit();
   Pose sensor_from_cloud = file.cloud_from_sensor.inverse();

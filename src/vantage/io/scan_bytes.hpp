@@ -23,10 +23,6 @@ namespace vantage {
 /// Throws InputError where the sizes do not fit.
 [[nodiscard]] Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics,
                                  const std::optional<Mask>& mask, const ScanFolderOptions& options);
-/// The same from a file's bytes (decode_depth()); raw ones have the intrinsics' own resolution. Throws InputError
-/// starting with `name`.
-[[nodiscard]] Scan scan_of_depth(std::string_view bytes, const Intrinsics& intrinsics, const ScanFolderOptions& options,
-                                 const std::string& name);
 
 /// A cloud as points in the sensor's frame, metres, with sight lines from its origin. `world_from_sensor` is the
 /// sensor's pose, for clouds whose points are in the world's frame.

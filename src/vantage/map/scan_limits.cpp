@@ -156,6 +156,7 @@ class RowReader {
       const int steps = std::abs(x[i] - eye_x) + std::abs(y[i] - eye_y) + std::abs(z[i] - eye_z) - steps_.first;
       // A ray that meets nothing also empties the voxel that it ends in.
       const int emptied = std::clamp(steps + (is_hit ? 0 : 1), 0, most);
+      // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical): without branches the loop becomes vector code.
       const bool is_point = is_hit & (static_cast<std::uint32_t>(x[i]) < size.x()) &
                             (static_cast<std::uint32_t>(y[i]) < size.y()) &
                             (static_cast<std::uint32_t>(z[i]) < size.z());

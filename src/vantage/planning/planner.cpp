@@ -141,8 +141,8 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   std::vector<int> feasible;
   for (int i = 0; i < static_cast<int>(candidates_.views.size()); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (reasons[at]) {
-      plan.infeasible.push_back(infeasible(i, candidates_.views[at], *reasons[at]));
+    if (const std::optional<std::string>& reason = reasons[at]) {
+      plan.infeasible.push_back(infeasible(i, candidates_.views[at], *reason));
     } else {
       feasible.push_back(i);
     }
@@ -201,6 +201,7 @@ std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& curre
   plan.infeasible.push_back(infeasible(plan.best.candidate, plan.best.view, reason));
   std::erase_if(plan.ranking, [&](const Evaluation& each) { return each.candidate == plan.best.candidate; });
   std::vector<int> ranked;
+  ranked.reserve(plan.ranking.size());
   for (const Evaluation& each : plan.ranking) ranked.push_back(each.candidate);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return std::nullopt;
   --plan.feasible;

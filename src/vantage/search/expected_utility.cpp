@@ -113,6 +113,7 @@ std::vector<Evaluation> rank_by_convolution(const ViewEvaluation& problem, std::
     expected = convolve(utilities, candidates, error.of_move(problem.current, problem.current).position(), options);
   } else {
     std::vector<PositioningError> errors;
+    errors.reserve(candidates.views.size());
     for (const View& view : candidates.views) errors.push_back(error.of_move(problem.current, view).position());
     expected = convolve_each(utilities, candidates, errors, options);
   }

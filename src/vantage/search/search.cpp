@@ -95,8 +95,9 @@ std::vector<Evaluation> ViewEvaluation::look_until(std::chrono::steady_clock::ti
       visibility.see_until(deadline, camera, views_of(candidate_indices), resolutions, order);
   std::vector<Evaluation> evaluations;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i]) continue;
-    evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], *seen[i]));
+    const std::optional<Visibility>& of_view = seen[i];
+    if (!of_view) continue;
+    evaluations.push_back(evaluation(candidate_indices[i], resolutions[resolutions.size() == 1 ? 0 : i], *of_view));
   }
   return evaluations;
 }

@@ -50,6 +50,7 @@ std::vector<Evaluation> compare_until(const TimeBox& box, const ViewEvaluation& 
   const std::vector<Evaluation> looked = looked_at(now + (box.deadline - now) / 4, problem, feasible, rays);
   std::vector<Evaluation> judged = problem.judge_until(box.deadline, looked);
   std::vector<int> order;
+  order.reserve(feasible.size());
   for (const Evaluation& each : looked) order.push_back(each.candidate);
   for (const int view : feasible) {
     if (std::find(order.begin(), order.end(), view) == order.end()) order.push_back(view);

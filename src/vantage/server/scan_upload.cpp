@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "vantage/core/error.hpp"
+#include "vantage/io/png16.hpp"
 #include "vantage/io/pose_file.hpp"
 #include "vantage/io/scan_bytes.hpp"
 #include "vantage/server/multipart.hpp"
@@ -38,11 +39,38 @@ int whole_number(std::string_view text, const std::string& what) {
 }
 
 void require_known(const std::vector<FormPart>& parts) {
-  constexpr std::array known{"depth", "cloud", "pose", "intrinsics", "name", "candidate"};
+  constexpr std::array known{"depth", "cloud", "mask", "pose", "commanded", "intrinsics", "name", "candidate", "key"};
   for (const FormPart& part : parts) {
     require(std::find(known.begin(), known.end(), part.name) != known.end(), "field '", part.name,
-            "': is not known; must be depth, cloud, pose, intrinsics, name or candidate");
+            "': is not known; must be depth, cloud, mask, pose, commanded, intrinsics, name, candidate or key");
   }
+}
+
+/// The pose in a field, of the hand where there is one, as one of the sensor.
+Pose pose_of(const FormPart& part, const UploadOptions& upload) {
+  const Pose hand = is_json(part.body) ? parse_pose_json(part.body, part.name) : parse_pose_text(part.body, part.name);
+  return sensor_pose(hand, upload.hand_eye, upload.reading);
+}
+
+/// Empty where the field is missing.
+std::string text_of(const std::vector<FormPart>& parts, std::string_view field) {
+  const FormPart* part = find(parts, field);
+  if (part == nullptr) return {};
+  require(part->body.size() <= longest_name, "field '", field, "': has ", part->body.size(),
+          " bytes; must have at most ", longest_name);
+  return std::string(part->body);
+}
+
+Scan depth_scan(const FormPart& depth, const std::vector<FormPart>& parts, const UploadOptions& upload) {
+  const FormPart *intrinsics = find(parts, "intrinsics"), *mask = find(parts, "mask");
+  require(intrinsics != nullptr || upload.intrinsics,
+          "the field 'intrinsics' is missing: 3x3 numbers, ROS camera_info or Open3D");
+  const Intrinsics used = intrinsics != nullptr ? intrinsics_of(intrinsics->body) : *upload.intrinsics;
+  const DepthPixels pixels = decode_depth(depth.body, used.resolution, "depth");
+  const Resolution size = std::visit([](const auto& image) { return image.resolution; }, pixels);
+  std::optional<Mask> counts;
+  if (mask != nullptr) counts = decode_png_mask(mask->body, size, "mask");
+  return scan_of_depth(pixels, used, counts, upload.reading);
 }
 
 }  // namespace
@@ -61,15 +89,11 @@ SessionScan parse_scan_upload(std::string_view body, const UploadOptions& upload
   const FormPart *depth = find(parts, "depth"), *cloud = find(parts, "cloud"), *pose = find(parts, "pose");
   require((depth == nullptr) != (cloud == nullptr), "a scan must have either the field 'depth' or the field 'cloud'");
   require(pose != nullptr, "the field 'pose' is missing: 4x4 numbers, or JSON with position and orientation");
+  require(depth != nullptr || find(parts, "mask") == nullptr, "field 'mask': goes with 'depth', not with 'cloud'");
   SessionScan scan;
-  const Pose hand = is_json(pose->body) ? parse_pose_json(pose->body, "pose") : parse_pose_text(pose->body, "pose");
-  Pose world_from_sensor = sensor_pose(hand, upload.hand_eye, options);
+  Pose world_from_sensor = pose_of(*pose, upload);
   if (depth != nullptr) {
-    const FormPart* intrinsics = find(parts, "intrinsics");
-    require(intrinsics != nullptr || upload.intrinsics,
-            "the field 'intrinsics' is missing: 3x3 numbers, ROS camera_info or Open3D");
-    scan.scan = scan_of_depth(depth->body, intrinsics != nullptr ? intrinsics_of(intrinsics->body) : *upload.intrinsics,
-                              options, "depth");
+    scan.scan = depth_scan(*depth, parts, upload);
   } else {
     const CloudFile file = parse_cloud(cloud->body, cloud_format(cloud->file_name), "cloud");
     if (options.cloud_frame == "sensor") {
@@ -81,12 +105,11 @@ SessionScan parse_scan_upload(std::string_view body, const UploadOptions& upload
   }
   scan.believed.world_from_sensor = world_from_sensor;
   scan.scan = cropped(std::move(scan.scan), scan.believed, options);
-  if (const FormPart* name = find(parts, "name")) {
-    require(name->body.size() <= longest_name, "field 'name': has ", name->body.size(), " bytes; must have at most ",
-            longest_name);
-    scan.name = name->body;
-  }
+  scan.name = text_of(parts, "name");
+  scan.key = text_of(parts, "key");
   if (const FormPart* candidate = find(parts, "candidate")) scan.candidate = whole_number(candidate->body, "candidate");
+  if (const FormPart* commanded = find(parts, "commanded"))
+    scan.commanded.emplace().world_from_sensor = pose_of(*commanded, upload);
   return scan;
 }
 

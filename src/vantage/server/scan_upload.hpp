@@ -21,9 +21,12 @@ struct UploadOptions {
 
 /// The scan in a `multipart/form-data` body with the fields
 /// - `depth`: a depth image as docs/sessions.md says, or `cloud`: a file NAME.ply, .pcd, .xyz or .xyzn;
-/// - `pose`: sensor to world, 4x4 numbers or JSON as in NAME.pose.txt and NAME.pose.json;
+/// - `mask` (of a depth image, may be missing): a PNG of its size whose black pixels do not count;
+/// - `pose`: sensor to world, 4x4 numbers or JSON as in NAME.pose.txt and NAME.pose.json; and `commanded`, likewise,
+/// where
+///   the sensor was sent, which may be missing;
 /// - `intrinsics` (of a depth image; where the options have none): as in camera-intrinsics.txt, .yaml or .json;
-/// - `name` and `candidate`, which may be missing.
+/// - `name`, `candidate` and `key` (SessionScan), which may be missing.
 /// Throws InputError naming the field and what would be right.
 [[nodiscard]] SessionScan parse_scan_upload(std::string_view body, const UploadOptions& options);
 

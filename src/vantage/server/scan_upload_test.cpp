@@ -51,6 +51,27 @@ TEST(ScanUpload, ReadsADepthImageWithPoseAndIntrinsics) {
   EXPECT_THAT(std::get<ImageScan>(scan.scan).image.depth, testing::ElementsAre(0.0F, 1.0F, 2.0F, 3.0F));
 }
 
+TEST(ScanUpload, TakesAMaskACommandedPoseAndAKey) {
+  std::string body = depth_upload();
+  body.resize(body.size() - 7);  // without its end
+  body += part("mask", encode_png16({{2, 2}, {1, 0, 1, 1}}), "m.png") + part("key", "frame 7") +
+          part("commanded", "1 0 0 1\n0 1 0 2\n0 0 1 3.5\n0 0 0 1\n");
+  const SessionScan scan = parse_scan_upload(body + "--B--\r\n", {});
+  EXPECT_EQ(scan.key, "frame 7");
+  ASSERT_TRUE(scan.commanded);
+  EXPECT_EQ(scan.commanded->position(), Vec3(1, 2, 3.5));
+  EXPECT_THAT(std::get<ImageScan>(scan.scan).image.depth, testing::ElementsAre(0.0F, 0.0F, 2.0F, 3.0F));
+  const auto refused = [](const std::string& parts) {
+    return input_error_of([&] { (void)parse_scan_upload(parts + "--B--\r\n", {}); });
+  };
+  const std::string wrong_mask = part("mask", encode_png16({{2, 1}, {1, 0}}));
+  EXPECT_THAT(refused(part("depth", encode_png16({{2, 2}, {0, 1, 2, 3}})) + part("pose", identity) +
+                      part("intrinsics", pinhole) + wrong_mask),
+              HasSubstr("mask: has 2x1 pixels, the depth image 2x2"));
+  EXPECT_THAT(refused(part("cloud", "1 2 3\n", "c.xyz") + part("pose", identity) + wrong_mask),
+              HasSubstr("field 'mask': goes with 'depth'"));
+}
+
 TEST(ScanUpload, BringsCloudsIntoMetresAndTheSensorsFrame) {
   ScanFolderOptions options;
   options.unit = "mm";

@@ -13,7 +13,7 @@ SessionPage::SessionPage(const ScanPlanningOptions& options, const std::string& 
   data_.object = name;
   data_.program = VANTAGE_VERSION;
   data_.state = RunData::State::waiting;
-  const SceneOptions scene = scene_in(given_box(options_.scene).value(), options_.scene).scene;
+  const SceneOptions scene = scene_in(session_box(options_), options_.scene).scene;
   data_.grid = scene.grid();
   data_.enclosure = scene.enclosure();
   set_up(options_.scene.radius.value_or(0), std::nullopt);
@@ -25,7 +25,7 @@ void SessionPage::set_up(double radius, const std::optional<RangeCamera>& camera
   has_camera_ = camera.has_value();
   data_.camera = options_.camera(camera);
   if (radius > 0) {
-    data_.candidates = view_sphere(options_.scene.views, radius, given_box(options_.scene).value().center());
+    data_.candidates = view_sphere(options_.scene.views, radius, session_box(options_).center());
     data_.candidates_text = concat("sphere:", options_.scene.views, ":", radius);
   }
 }

@@ -155,7 +155,7 @@ int SessionService::store(SessionScan scan) {
     const std::lock_guard lock(mutex_);
     if (taken_ && scan.candidate.value_or(taken_->candidate) == taken_->candidate) {
       scan.candidate = taken_->candidate;
-      scan.commanded = taken_->view;
+      if (!scan.commanded) scan.commanded = taken_->view;
     }
   }
   try {
@@ -176,7 +176,7 @@ HttpAnswer SessionService::add_scan(const HttpRequest& request) {
   const int number = store(parse_scan_upload(request.body, upload_));
   {
     std::unique_lock lock(mutex_);
-    to_merge_.push_back(number);
+    if (number > merged_up_to_) to_merge_.push_back(number);  // else it was sent again
     stored_.notify_all();
     if (waits) merged_.wait(lock, [&] { return ends_ || merged_up_to_ >= number; });
     if (!waits || merged_up_to_ < number) return json_answer({{"number", number}}, 202);

@@ -91,6 +91,21 @@ TEST_F(SessionServiceTest, TakesScansAndSaysWhereToLook) {
     EXPECT_THAT(s.get(file)->body, testing::StartsWith("ply")) << file;
 }
 
+TEST_F(SessionServiceTest, AScanThatIsSentAgainWithItsKeyIsAnsweredAndNotStoredTwice) {
+  const std::string form = part("key", "7") + plate_form();
+  {
+    Served s(folder / "s");
+    const auto first = s.add(form), again = s.add(form);
+    EXPECT_EQ(first->status, 201);
+    EXPECT_EQ(again->status, 201);
+    EXPECT_EQ(first->body, again->body);
+  }
+  Served s(folder / "s");
+  EXPECT_EQ(Json::parse(s.add(form)->body)["number"], 0);
+  EXPECT_EQ(Json::parse(s.add(plate_form())->body)["number"], 1);
+  EXPECT_EQ(s.status()["stored"], 2);
+}
+
 TEST_F(SessionServiceTest, AViewIsTakenSkippedAndPlannedAgain) {
   Served s(folder / "s");
   (void)s.add(plate_form());

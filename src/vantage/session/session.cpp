@@ -45,6 +45,7 @@ void Session::replay() {
       leave_out(number, error.what());
     }
     ++stored_;
+    if (waiting) note_key(*waiting);
     if (waiting) integrate_one(*waiting, folder_.located(number));
   }
   skipped_ = folder_.skipped();
@@ -54,11 +55,17 @@ void Session::replay() {
 int Session::store(SessionScan scan) {
   scan.validate();
   const std::lock_guard storing(storing_);
+  if (const auto found = number_of_key_.find(scan.key); found != number_of_key_.end()) return found->second;
   const int number = folder_.store(scan);
   waiting_.push_back({number, std::move(scan)});
+  note_key(waiting_.back());
   const std::lock_guard looking(looking_);
   ++stored_;
   return number;
+}
+
+void Session::note_key(const Waiting& waiting) {
+  if (!waiting.scan.key.empty()) number_of_key_.emplace(waiting.scan.key, waiting.number);
 }
 
 void Session::integrate_one(const Waiting& waiting, const std::optional<Located>& known) {

@@ -50,8 +50,9 @@ class Session {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
   [[nodiscard]] const ScanPlanningOptions& options() const { return folder_.options(); }
 
-  /// Writes the scan to disk and returns its number; integrate() merges it. Throws InputError where the scan is not
-  /// valid, Error where it could not be written; then it is not part of the session.
+  /// Writes the scan to disk and returns its number; integrate() merges it. Where a scan with its key is there already,
+  /// nothing is written and that number returned: whoever got no answer may send again. Throws InputError where the
+  /// scan is not valid, Error where it could not be written; then it is not part of the session.
   int store(SessionScan scan);
   /// Registers and merges the stored scans up to this number, unless another thread does. Returns the record of it.
   /// Throws Error where it was left out.
@@ -79,6 +80,7 @@ class Session {
   };
 
   void replay();
+  void note_key(const Waiting& waiting);
   [[nodiscard]] std::optional<Waiting> next_waiting(int up_to);
   void integrate_one(const Waiting& waiting, const std::optional<Located>& known);
   void store_located(int number, const Located& found);
@@ -96,6 +98,7 @@ class Session {
   SessionFolder folder_;
   OnScan on_scan_;
   std::deque<Waiting> waiting_;
+  std::map<std::string, int> number_of_key_;
   std::unique_ptr<SessionModel> model_;
   bool model_is_whole_ = true;  // no merging broke off in the middle of a scan
   std::optional<SessionPlan> plan_;

@@ -8,6 +8,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/io/atomic_file.hpp"
 #include "vantage/session/sealed_file.hpp"
+#include "vantage/session/session_model.hpp"
 #include "vantage/session/skipped_views.hpp"
 
 namespace vantage {
@@ -42,10 +43,7 @@ bool SessionFolder::is_session(const fs::path& path) { return fs::exists(path / 
 
 void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& options) {
   options.validate();
-  require(
-      options.scene.box.has_value(),
-      "box: a session needs cx,cy,cz,sx,sy,sz; its scans come one by one, so that the box cannot be found from them");
-  (void)scene_in(*given_box(options.scene), options.scene);
+  (void)scene_in(session_box(options), options.scene);
   const fs::path data = path / data_folder;
   require(!fs::exists(data / options_file), path.string(),
           ": already is a session; add scans to it or give another folder");

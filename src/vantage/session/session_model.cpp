@@ -9,17 +9,18 @@ namespace {
 class KeepingRegistrar : public Registrar {
  public:
   KeepingRegistrar(Registrar& registrar, std::optional<Located> known)
-      : registrar_(registrar), found_(std::move(known)) {}
+      : registrar_(registrar), known_(std::move(known)) {}
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override {
-    if (!found_) found_ = registrar_.locate(model, scan, points, believed);
-    return *found_;
+    found_ = known_ ? *known_ : registrar_.locate(model, scan, points, believed);
+    return found_;
   }
-  [[nodiscard]] const Located& found() const { return *found_; }
+  [[nodiscard]] const Located& found() const { return found_; }
 
  private:
   Registrar& registrar_;
-  std::optional<Located> found_;
+  std::optional<Located> known_;
+  Located found_;
 };
 
 }  // namespace
@@ -27,7 +28,7 @@ class KeepingRegistrar : public Registrar {
 SessionModel::SessionModel(const ScanPlanningOptions& options)
     : given_radius_(options.scene.radius),
       views_(options.scene.views),
-      box_(given_box(options.scene).value()),
+      box_(session_box(options)),
       registrar_(make_registrar(options.scene, scene_in(box_, options.scene))),
       scans_(scene_in(box_, options.scene)) {
   if (const auto learner = options.planning.learner_options()) scans_.learner.emplace(*learner);
@@ -75,9 +76,17 @@ SessionState SessionModel::state() const {
           .learner = scans_.learner};
 }
 
+Box3 session_box(const ScanPlanningOptions& options) {
+  const std::optional<Box3> box = given_box(options.scene);
+  require(
+      box.has_value(),
+      "box: a session needs cx,cy,cz,sx,sy,sz; its scans come one by one, so that the box cannot be found from them");
+  return box.value_or(Box3());
+}
+
 Planner session_planner(const ScanPlanningOptions& options, const SessionState& state,
                         const std::map<int, std::string>& skipped) {
-  const Vec3 center = given_box(options.scene).value().center();
+  const Vec3 center = session_box(options).center();
   Planner planner = options.planner(view_sphere(options.scene.views, state.radius, center), state.camera);
   tell_of_scans(planner, state.scans);
   if (state.learner) planner.believe(state.learner->prediction());

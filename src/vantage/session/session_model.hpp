@@ -54,6 +54,9 @@ class SessionModel {
   bool box_was_seen_ = false;
 };
 
+/// The box of a session's options. Throws InputError where they have none.
+[[nodiscard]] Box3 session_box(const ScanPlanningOptions& options);
+
 /// The planner for this state, with the candidates that were skipped or set aside.
 [[nodiscard]] Planner session_planner(const ScanPlanningOptions& options, const SessionState& state,
                                       const std::map<int, std::string>& skipped);

@@ -153,6 +153,7 @@ std::string scan_bytes(const SessionScan& scan) {
   header["name"] = scan.name;
   header["candidate"] = scan.candidate ? Json(*scan.candidate) : Json(nullptr);
   header["believed"] = pose_columns(scan.believed.world_from_sensor);
+  if (!scan.key.empty()) header["key"] = scan.key;
   if (scan.commanded) header["commanded"] = pose_columns(scan.commanded->world_from_sensor);
   std::string arrays;
   if (const auto* image = std::get_if<ImageScan>(&scan.scan)) {
@@ -180,6 +181,7 @@ SessionScan parse_scan(std::string_view bytes, const std::string& name) {
   scan.name = text(header, "name", name);
   if (!member(header, "candidate", name).is_null()) scan.candidate = static_cast<int>(count(header, "candidate", name));
   scan.believed.world_from_sensor = pose(header, "believed", name);
+  if (header.contains("key")) scan.key = text(header, "key", name);
   if (header.contains("commanded")) scan.commanded.emplace().world_from_sensor = pose(header, "commanded", name);
   if (header.contains("camera")) {
     RangeImage image{parse_camera(header["camera"], name), {}};

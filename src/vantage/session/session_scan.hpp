@@ -16,6 +16,7 @@ struct SessionScan {
   Scan scan;                           // in the sensor's frame
   std::optional<int> candidate;        // the candidate view that it was taken from, where it was a planned one
   std::optional<View> commanded = {};  // where the sensor was sent; without it, the candidate's view at that time
+  std::string key = {};                // the sender's own: a session stores only one scan with it
 
   /// Throws InputError where the scan or its pose has numbers that are not finite.
   void validate() const;

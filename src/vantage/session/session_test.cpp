@@ -78,6 +78,27 @@ TEST(Session, MergesWhatWasStoredButNotYetMergedBeforeItEnded) {
   EXPECT_THAT(session.next().state->numbers, ElementsAre(0, 1));
 }
 
+TEST(Session, StoresAScanWithAKeyOnceAlsoAfterARestart) {
+  const TestFolder folder;
+  Session::create(folder / "s", small_options());
+  std::vector<SessionScan> scans = some_scans();
+  scans[0].key = "a";
+  scans[1].key = "b";
+  {
+    Session session(folder / "s");
+    EXPECT_EQ(session.store(scans[0]), 0);
+    EXPECT_EQ(session.store(scans[0]), 0) << "not merged yet";
+    EXPECT_EQ(session.add(scans[1]).scan, 1);
+    EXPECT_EQ(session.add(scans[0]).scan, 0) << "merged";
+    EXPECT_EQ(session.status().stored, 2U);
+  }
+  Session session(folder / "s");
+  EXPECT_EQ(session.add(scans[1]).scan, 1);
+  EXPECT_EQ(session.store(scans[2]), 2);
+  EXPECT_EQ(session.store(scans[2]), 3) << "without a key every scan is another one";
+  EXPECT_EQ(session.status().stored, 4U);
+}
+
 TEST(Session, LeavesOutADamagedScanAndSaysSo) {
   const TestFolder folder;
   Session::create(folder / "s", small_options());

@@ -76,21 +76,17 @@ bool begins_outside(const PixelFrame& frame) {
 
 struct SightEvaluator::Prepared {
   Prepared(const VoxelMap& voxel_map, const GrazingPass& grazing, InstructionSet instructions)
-      : map(voxel_map),
-        pass(grazing),
-        splat(splat_sights_for(instructions)),
-        normals(voxel_map),
-        fits(voxel_map.layout().size.maxCoeff() <= PackedVoxel::max_side) {
+      : map(voxel_map), pass(grazing), splat(splat_sights_for(instructions)), normals(voxel_map) {
     pass.validate();
-    if (fits) voxels.emplace(voxel_map, splat_kernels_for(instructions).select);
+    if (voxel_map.layout().size.maxCoeff() <= PackedVoxel::max_side)
+      voxels.emplace(voxel_map, splat_kernels_for(instructions).select);
   }
 
   const VoxelMap& map;
   GrazingPass pass;
   SplatSights splat;
   SurfaceNormals normals;
-  bool fits;
-  std::optional<PassableVoxels> voxels;
+  std::optional<PassableVoxels> voxels;  // where the map is small enough to pack them
   mutable tbb::enumerable_thread_specific<Scratch> scratch;
 
   /// Occupied voxels that this axis grazes.
@@ -113,7 +109,7 @@ struct SightEvaluator::Prepared {
   [[nodiscard]] const std::vector<std::uint32_t>* splat_view(const RangeCamera& camera, const View& view,
                                                              Resolution resolution) const {
     const PixelFrame frame(map.grid(), map.enclosure(), camera, view, resolution);
-    if (!fits || !frame.is_regular() || !begins_outside(frame)) return nullptr;
+    if (!voxels || !frame.is_regular() || !begins_outside(frame)) return nullptr;
     Scratch& memory = scratch.local();
     memory.ended.reset(resolution);
     memory.passed.reset(resolution);
