@@ -74,7 +74,7 @@ std::string html_of(const ExperimentFigure& figure, int number) {
   std::string plots = figure.plots.size() > 1 ? "<div class=\"two\">\n" : "<div>\n";
   for (const ExperimentFigure::Plot& plot : figure.plots)
     plots += std::visit([](const auto& chosen) { return svg_plot(chosen); }, plot);
-  const std::string note = figure.note.empty() ? "" : " " + figure.note;
+  const std::string note = figure.note.empty() ? "" : ". " + figure.note;
   return html_figure(plots + "</div>\n", fmt::format("Figure {}. {}{}", number, figure.title, note));
 }
 

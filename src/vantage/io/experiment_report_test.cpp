@@ -73,7 +73,7 @@ TEST(ExperimentReport, PageIsWellFormedAndNeedsNothingElse) {
   EXPECT_THAT(page, HasSubstr("<td class=\"r outside\">9.0 ± 1.0</td><td class=\"r reference\">8.0</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"r inside\">−0.50 [−0.50, −0.50]</td>"));
   EXPECT_THAT(page, HasSubstr("Table 1. Views, &lt;all&gt; objects"));
-  EXPECT_THAT(page, HasSubstr("Figure 1. All kinds Bands: 95 %."));
+  EXPECT_THAT(page, HasSubstr("Figure 1. All kinds. Bands: 95 %."));
 }
 
 TEST(ExperimentReport, WritesEveryNumberOfATableAsCsv) {
