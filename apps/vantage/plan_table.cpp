@@ -2,23 +2,34 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "vantage/io/run_files.hpp"
 
 namespace vantage::app {
+namespace {
+
+std::string expectation_text(const Expectation& expected) {
+  return fmt::format(" {:>8.5f} {:>7.0f} %", expected.utility, 100 * expected.registers);
+}
+
+}  // namespace
 
 void print_views(std::vector<Evaluation> evaluations, int top) {
   rank(evaluations);
-  fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>8}\n", "view", "position [m]", "n_oc", "n_op",
-             "n_um", "f_area", "f_nav", "f_qual", "f_occl", "utility");
+  const bool is_expected = std::any_of(evaluations.begin(), evaluations.end(),
+                                       [](const Evaluation& each) { return each.expected.has_value(); });
+  fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>8}{}\n", "view", "position [m]", "n_oc", "n_op",
+             "n_um", "f_area", "f_nav", "f_qual", "f_occl", "utility", is_expected ? " expected registers" : "");
   int printed = 0;
   for (const Evaluation& e : evaluations) {
     if (!e.feasible) continue;
     if (++printed > top) break;
     const Vec3 p = e.view.position();
-    fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.5f}\n", e.candidate,
+    fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.5f}{}\n", e.candidate,
                fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z()), e.seen.occupied, e.seen.occplane,
                e.seen.unmarked, e.factors.f_area, e.factors.f_navigation, e.factors.f_quality, e.factors.f_occlusion,
-               e.utility);
+               e.utility, e.expected ? expectation_text(*e.expected) : "");
   }
   for (const Evaluation& e : evaluations) {
     if (!e.feasible) fmt::print("{:>5} not feasible: {}\n", e.candidate, e.reason);

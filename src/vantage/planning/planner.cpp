@@ -21,6 +21,8 @@ bool meets_occplane(const std::vector<Evaluation>& evaluations, int at_most) {
 /// Of how many views it is the best, and how many there was no time for.
 std::string rivals(const Plan& plan, double deadline) {
   const std::size_t seen = plan.ranking.size();
+  // Poses are sampled around the strongest views only.
+  if (plan.best.expected && seen < plan.feasible) return concat("best of the ", seen, " strongest of ", plan.feasible);
   if (deadline == 0 || seen == plan.feasible) return concat("best of ", seen);
   return concat("best of the ", seen, " of ", plan.feasible, " views seen within ", deadline, " ms");
 }
