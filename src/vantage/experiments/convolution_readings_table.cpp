@@ -22,6 +22,7 @@ std::vector<ConvolutionReading> convolution_readings() {
   std::vector<ConvolutionReading> all{{"figure 11: the sensor's rays, 10 cm"}};
   all.push_back({"the planner believes 15 cm", [](auto& o) { o.believed_error = "0.15,0.15,0.15"; }});
   all.push_back({"the planner believes 20 cm", [](auto& o) { o.believed_error = "0.2,0.2,0.2"; }});
+  all.push_back({"no error, the planner believes 20 cm", [](auto& o) { o.believed_error = "0.2,0.2,0.2"; }, 0});
   all.push_back({"cells of 17 cm, 25 per side", [](auto& o) { o.candidates = "cube:25:4.1:0.82:1.9"; }});
   all.push_back({.name = "error of 5 cm", .sigma = 0.05});
   all.push_back({.name = "error of 15 cm", .sigma = 0.15});
