@@ -53,6 +53,7 @@ Experiment convolution_readings_table(const ExperimentOptions& options) {
       reading.change(run);
       run.positioning_error = Vec3::Constant(sigma);
       run.convolve = convolve;
+      if (run.convolve == "off") run.believed_error.reset();  // the same run, whatever is believed
       return experiment.add(
           runs_with_seeds(fmt::format("{}, {}", reading.name, method), logo.object, run, options.seeds));
     };
