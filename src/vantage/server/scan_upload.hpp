@@ -22,9 +22,8 @@ struct UploadOptions {
 /// The scan in a `multipart/form-data` body with the fields
 /// - `depth`: a depth image as docs/sessions.md says, or `cloud`: a file NAME.ply, .pcd, .xyz or .xyzn;
 /// - `mask` (of a depth image, may be missing): a PNG of its size whose black pixels do not count;
-/// - `pose`: sensor to world, 4x4 numbers or JSON as in NAME.pose.txt and NAME.pose.json; and `commanded`, likewise,
-/// where
-///   the sensor was sent, which may be missing;
+/// - `pose`: sensor to world, 4x4 numbers or JSON as in NAME.pose.txt and NAME.pose.json;
+/// - `commanded`, likewise: where the sensor was sent, which may be missing;
 /// - `intrinsics` (of a depth image; where the options have none): as in camera-intrinsics.txt, .yaml or .json;
 /// - `name`, `candidate` and `key` (SessionScan), which may be missing.
 /// Throws InputError naming the field and what would be right.
