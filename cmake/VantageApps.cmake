@@ -5,35 +5,53 @@ vantage_library(registration registration)
 target_link_libraries(vantage_registration PUBLIC vantage_core PRIVATE $<BUILD_INTERFACE:nanoflann::nanoflann>)
 vantage_unity(vantage_registration)
 
-vantage_require(simulation fmt)
-vantage_require(simulation embree 3)
-vantage_library(simulation simulation)
-target_link_libraries(vantage_simulation
-  PUBLIC vantage_core PRIVATE embree $<BUILD_INTERFACE:nanoflann::nanoflann> fmt::fmt)
-vantage_unity(vantage_simulation)
-
 vantage_require(arm fcl)
 vantage_require(arm urdfdom)
 vantage_library(arm arm)
 target_link_libraries(vantage_arm PUBLIC vantage_core PRIVATE fcl urdfdom::urdfdom_model)
 vantage_unity(vantage_arm)
 
-vantage_require(full fmt)
-vantage_require(full nlohmann_json)
-vantage_require(full yaml-cpp)
-vantage_require(full PNG)
-vantage_require(full liblzf)
-vantage_require(full ZLIB)
-vantage_library(full reconstruction io session doctor experiments)
-target_link_libraries(vantage_full
-  PUBLIC vantage_core vantage_registration vantage_simulation vantage_arm nlohmann_json::nlohmann_json
+vantage_library(model model)
+target_link_libraries(vantage_model PUBLIC vantage_core vantage_registration)
+vantage_unity(vantage_model)
+
+vantage_require(formats fmt)
+vantage_require(formats nlohmann_json)
+vantage_require(formats yaml-cpp)
+vantage_require(formats PNG)
+vantage_require(formats liblzf)
+vantage_require(formats ZLIB)
+vantage_library(formats files formats recordings)
+target_link_libraries(vantage_formats PUBLIC vantage_core nlohmann_json::nlohmann_json
   PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf ZLIB::ZLIB)
+vantage_unity(vantage_formats)
+
+vantage_library(session options runs session)
+target_link_libraries(vantage_session PUBLIC vantage_model vantage_formats vantage_arm PRIVATE fmt::fmt)
+vantage_unity(vantage_session)
+
+vantage_library(doctor doctor)
+target_link_libraries(vantage_doctor PUBLIC vantage_model vantage_formats PRIVATE fmt::fmt)
+vantage_unity(vantage_doctor)
+
+vantage_library(report report)
+target_link_libraries(vantage_report PUBLIC vantage_session PRIVATE fmt::fmt ZLIB::ZLIB)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/vantage/session/session_result.cpp
   ${PROJECT_SOURCE_DIR}/src/vantage/server/session_page.cpp
   PROPERTIES COMPILE_DEFINITIONS VANTAGE_VERSION="${PROJECT_VERSION}")
 include(VantageViewer)
-target_sources(vantage_full PRIVATE ${vantage_viewer_source})
-vantage_unity(vantage_full)
+target_sources(vantage_report PRIVATE ${vantage_viewer_source})
+vantage_unity(vantage_report)
+
+vantage_require(simulation embree 3)
+vantage_library(simulation simulation)
+target_link_libraries(vantage_simulation
+  PUBLIC vantage_session PRIVATE embree $<BUILD_INTERFACE:nanoflann::nanoflann> fmt::fmt)
+vantage_unity(vantage_simulation)
+
+vantage_library(experiments experiments)
+target_link_libraries(vantage_experiments PUBLIC vantage_simulation vantage_report PRIVATE fmt::fmt)
+vantage_unity(vantage_experiments)
 
 # The web server. Debian's cpp-httplib has no CMake file; its pkg-config file says with which definitions it was compiled,
 # and the sizes of its classes depend on them.
@@ -44,16 +62,15 @@ target_compile_definitions(vantage_httplib INTERFACE
 target_include_directories(vantage_httplib SYSTEM INTERFACE ${VANTAGE_HTTPLIB_INCLUDE})
 target_link_libraries(vantage_httplib INTERFACE cpp-httplib)
 vantage_library(server server)
-target_link_libraries(vantage_server PUBLIC vantage_full
+target_link_libraries(vantage_server PUBLIC vantage_session vantage_report
   PRIVATE fmt::fmt $<BUILD_INTERFACE:vantage_httplib> $<INSTALL_INTERFACE:cpp-httplib>)
-
 vantage_unity(vantage_server)
 
 find_package(CLI11 REQUIRED)
 file(GLOB vantage_app_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/vantage/*.cpp)
 list(FILTER vantage_app_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(vantage ${vantage_app_sources})
-target_link_libraries(vantage PRIVATE vantage_full vantage_server vantage_build_settings fmt::fmt CLI11::CLI11)
+target_link_libraries(vantage PRIVATE vantage_experiments vantage_doctor vantage_server vantage_build_settings fmt::fmt CLI11::CLI11)
 target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
 vantage_unity(vantage)
 set_target_properties(vantage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -22,18 +22,18 @@ function(vantage_fuzzed name)
 endfunction()
 
 # The readers' sources and what they need alone, so that trying a new reader takes seconds.
-set(io_files io/atomic_file io/text_reader io/ply io/polygon io/mesh_file io/mesh_parsers io/stl io/yaml_text io/json_text
-  io/pcd io/point_cloud_file io/pose_file io/camera_file io/png16 io/depth_image io/exr io/conf_file)
+set(reader_files files/atomic_file files/text_reader formats/ply formats/polygon formats/mesh_file formats/mesh_parsers formats/stl files/yaml_text files/json_text
+  formats/pcd formats/point_cloud_file formats/pose_file formats/camera_file formats/png16 formats/depth_image formats/exr formats/conf_file)
 vantage_fuzzed(file_readers core/geometry core/random
   map/block_pixels map/grid map/integrate map/integrate_exactly map/integrator map/lattice_projection map/scan_limits
-  map/voxel_map map/voxel_ray sensor/range_camera sensor/range_image sensor/sight_line registration/scan_cloud
-  reconstruction/scan arm/arm_description arm/urdf_check ${io_files} io/nrrd io/map_file io/natural_order io/stored_run_files
+  map/voxel_map map/voxel_ray sensor/range_camera sensor/range_image sensor/sight_line sensor/scan_cloud
+  map/scan arm/arm_description arm/urdf_check ${reader_files} formats/nrrd formats/map_file files/natural_order runs/stored_run_files
   doctor/pose_files experiments/run_outcome session/sealed_file session/session_scan session/skipped_views)
 # A robot's file ends in the planner, which is linked as it is.
 vantage_fuzzed(option_readers arm/arm arm/arm_collision arm/arm_description arm/arm_kinematics arm/urdf_check arm/joint_path
-  registration/fusion registration/scan_cloud reconstruction/error_options reconstruction/from_scans
-  reconstruction/options reconstruction/reconstruction reconstruction/scan ${io_files} io/natural_order io/options
-  io/robot_file io/scan_folder io/scan_bytes io/scan_planning_options io/pose_source io/organised_normals io/run_files
+  registration/fusion sensor/scan_cloud options/error_options model/from_scans
+  options/reconstruct_options model/reconstruction map/scan ${reader_files} files/natural_order options/options
+  options/robot_file recordings/scan_folder recordings/scan_bytes options/scan_planning_options recordings/pose_source sensor/organised_normals runs/run_files
   session/session_scan server/multipart server/scan_upload server/session_request)
 target_link_libraries(option_readers PUBLIC vantage_core fcl)
 

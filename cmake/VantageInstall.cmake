@@ -1,4 +1,4 @@
-# `cmake --install` gives a package that find_package(vantage COMPONENTS core registration simulation full) finds.
+# `cmake --install` gives a package that find_package(vantage COMPONENTS core registration session simulation) finds.
 # Only `core` is always there; each component brings the packages that vantage_require() noted for it and no others.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/vantage)

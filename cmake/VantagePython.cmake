@@ -20,7 +20,7 @@ endif()
 file(GLOB vantage_python_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/python/src/*.cpp)
 # Without link-time optimisation: the library is compiled without it, and what is here only passes calls on.
 pybind11_add_module(vantage_python MODULE NO_EXTRAS ${vantage_python_sources})
-target_link_libraries(vantage_python PRIVATE vantage_full vantage_build_settings)
+target_link_libraries(vantage_python PRIVATE vantage_simulation vantage_report vantage_doctor vantage_build_settings)
 # What is here only passes calls on: compiling it quickly matters more.
 target_compile_options(vantage_python PRIVATE -O1)
 target_compile_definitions(vantage_python PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "vantage/reconstruction/simulate.hpp"
 #include "vantage/simulation/objects.hpp"
+#include "vantage/simulation/simulate.hpp"
 
 using namespace vantage;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "vantage/reconstruction/reconstruction.hpp"
+#include "vantage/model/reconstruction.hpp"
 
 using namespace vantage;
 

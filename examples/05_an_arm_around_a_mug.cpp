@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "vantage/io/robot_file.hpp"
-#include "vantage/reconstruction/reconstruction.hpp"
+#include "vantage/model/reconstruction.hpp"
+#include "vantage/options/robot_file.hpp"
 #include "vantage/simulation/mesh_tools.hpp"
 #include "vantage/simulation/objects.hpp"
 #include "vantage/simulation/simulated_robot.hpp"

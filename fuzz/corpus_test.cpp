@@ -5,7 +5,7 @@
 
 #include "readers.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/atomic_file.hpp"
+#include "vantage/files/atomic_file.hpp"
 
 namespace vantage::fuzz {
 namespace {

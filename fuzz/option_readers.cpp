@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "readers.hpp"
-#include "vantage/io/robot_file.hpp"
-#include "vantage/io/scan_planning_options.hpp"
+#include "vantage/options/robot_file.hpp"
+#include "vantage/options/scan_planning_options.hpp"
 #include "vantage/server/multipart.hpp"
 #include "vantage/server/scan_upload.hpp"
 #include "vantage/server/session_request.hpp"

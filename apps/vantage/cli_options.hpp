@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/options.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/options/options.hpp"
 
 namespace vantage::app {
 

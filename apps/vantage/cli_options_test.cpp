@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "vantage/io/io_test_util.hpp"
+#include "support/test_folder.hpp"
 
 namespace vantage::app {
 namespace {

@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "vantage/io/options.hpp"
-#include "vantage/io/scan_folder.hpp"
-#include "vantage/reconstruction/from_scans.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/model/from_scans.hpp"
+#include "vantage/options/options.hpp"
+#include "vantage/options/reconstruct_options.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage::app {
 namespace {

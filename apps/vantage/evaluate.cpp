@@ -9,10 +9,10 @@
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/map_file.hpp"
-#include "vantage/io/ranked_views.hpp"
-#include "vantage/io/robot_file.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/formats/map_file.hpp"
+#include "vantage/options/reconstruct_options.hpp"
+#include "vantage/options/robot_file.hpp"
+#include "vantage/runs/ranked_views.hpp"
 
 namespace vantage::app {
 namespace {

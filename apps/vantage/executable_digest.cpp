@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "vantage/experiments/sweep_object.hpp"
-#include "vantage/io/atomic_file.hpp"
+#include "vantage/files/atomic_file.hpp"
 
 namespace vantage::app {
 

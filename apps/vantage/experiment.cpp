@@ -16,7 +16,7 @@
 #include "program_ranks.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/experiments/experiments.hpp"
-#include "vantage/io/atomic_file.hpp"
+#include "vantage/files/atomic_file.hpp"
 
 namespace vantage::app {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "commands.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/map_file.hpp"
-#include "vantage/io/octomap_file.hpp"
+#include "vantage/formats/map_file.hpp"
+#include "vantage/formats/octomap_file.hpp"
 
 namespace vantage::app {
 

@@ -4,7 +4,7 @@
 
 #include "commands.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/options.hpp"
+#include "vantage/options/options.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/mesh_file.hpp"
+#include "vantage/formats/mesh_file.hpp"
 #include "vantage/simulation/objects.hpp"
 
 namespace vantage::app {

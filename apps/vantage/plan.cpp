@@ -10,11 +10,12 @@
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/ranked_views.hpp"
-#include "vantage/io/robot_file.hpp"
-#include "vantage/io/run_folder.hpp"
-#include "vantage/io/scan_planning_options.hpp"
-#include "vantage/reconstruction/scan_model.hpp"
+#include "vantage/model/scan_model.hpp"
+#include "vantage/options/robot_file.hpp"
+#include "vantage/options/scan_planning_options.hpp"
+#include "vantage/report/static_report.hpp"
+#include "vantage/runs/ranked_views.hpp"
+#include "vantage/runs/run_folder.hpp"
 
 namespace vantage::app {
 namespace {
@@ -76,7 +77,7 @@ void plan(PlanRequest& request) {
   summary.stop_reason = next ? "" : planner.why_finished();
   if (folder) {
     folder->finish(scans.model(), summary, next, seconds_since(start),
-                   request.report ? RunPictures::mesh_and_report : RunPictures::none);
+                   request.report ? RunPage(report_page) : RunPage());
   }
   if (request.program.json) {
     fmt::print("{}\n", ranked_views_json(next, planner.why_finished(), scans.model().scans, request.top).dump(2));

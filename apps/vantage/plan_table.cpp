@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "vantage/io/run_files.hpp"
+#include "vantage/runs/run_files.hpp"
 
 namespace vantage::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "vantage/model/scan_record.hpp"
 #include "vantage/planning/planner.hpp"
-#include "vantage/reconstruction/scan_record.hpp"
 
 namespace vantage::app {
 

@@ -11,10 +11,11 @@
 #include "page_server.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/robot_file.hpp"
-#include "vantage/io/run_folder.hpp"
-#include "vantage/io/run_log.hpp"
-#include "vantage/reconstruction/simulate.hpp"
+#include "vantage/options/robot_file.hpp"
+#include "vantage/report/static_report.hpp"
+#include "vantage/runs/run_folder.hpp"
+#include "vantage/runs/run_log.hpp"
+#include "vantage/simulation/simulate.hpp"
 
 namespace vantage::app {
 namespace {
@@ -142,7 +143,7 @@ void reconstruct(ReconstructRequest& request) {
 
   const RunSummary summary = summarise(request, source.name, object, run);
   folder.finish(run.model, summary, std::nullopt, seconds_since(start),
-                request.report ? RunPictures::mesh_and_report : RunPictures::none);
+                request.report ? RunPage(report_page) : RunPage());
   if (audience.log) audience.log->remove();
   print_result(request, folder, summary, run.model, seconds_since(start));
   std::fflush(stdout);

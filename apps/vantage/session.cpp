@@ -1,4 +1,5 @@
 #include "vantage/session/session.hpp"
+#include "vantage/report/static_report.hpp"
 
 #include <fmt/core.h>
 
@@ -10,8 +11,8 @@
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/ranked_views.hpp"
-#include "vantage/io/robot_file.hpp"
+#include "vantage/options/robot_file.hpp"
+#include "vantage/runs/ranked_views.hpp"
 #include "vantage/session/session_json.hpp"
 
 namespace vantage::app {
@@ -116,7 +117,7 @@ void finish(SessionRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
   tell_dropped(session.status());
-  session.finish();
+  session.finish(report_page);
   if (!request.program.quiet) fmt::print("written to {}; open report.html there\n", request.folder);
 }
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/stored_run.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/options/reconstruct_options.hpp"
+#include "vantage/report/run_picture.hpp"
 
 namespace vantage::app {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arrays.hpp"
-#include "vantage/reconstruction/scan.hpp"
+#include "vantage/map/scan.hpp"
 
 namespace vantage::python {
 

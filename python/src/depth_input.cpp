@@ -2,7 +2,7 @@
 
 #include "bindings.hpp"
 #include "options.hpp"
-#include "vantage/io/scan_bytes.hpp"
+#include "vantage/recordings/scan_bytes.hpp"
 
 namespace vantage::python {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "vantage/io/scan_folder.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage::python {
 

@@ -1,9 +1,9 @@
 #include "bindings.hpp"
 #include "options.hpp"
-#include "vantage/io/camera_file.hpp"
-#include "vantage/io/depth_image.hpp"
-#include "vantage/io/pose_file.hpp"
-#include "vantage/io/scan_folder.hpp"
+#include "vantage/formats/camera_file.hpp"
+#include "vantage/formats/depth_image.hpp"
+#include "vantage/formats/pose_file.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage::python {
 namespace {

@@ -1,7 +1,7 @@
 #include "bindings.hpp"
-#include "vantage/io/map_file.hpp"
+#include "vantage/formats/map_file.hpp"
 #include "vantage/map/integrate.hpp"
-#include "vantage/reconstruction/scan.hpp"
+#include "vantage/map/scan.hpp"
 #include "vantage/visibility/visibility.hpp"
 
 namespace vantage::python {

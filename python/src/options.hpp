@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "vantage/io/options.hpp"
+#include "vantage/options/options.hpp"
 
 namespace vantage::python {
 

@@ -3,9 +3,9 @@
 #include "bindings.hpp"
 #include "options.hpp"
 #include "utility.hpp"
-#include "vantage/io/robot_file.hpp"
+#include "vantage/options/reconstruct_options.hpp"
+#include "vantage/options/robot_file.hpp"
 #include "vantage/planning/planner.hpp"
-#include "vantage/reconstruction/options.hpp"
 
 namespace vantage::python {
 namespace {

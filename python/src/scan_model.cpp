@@ -1,7 +1,7 @@
-#include "vantage/reconstruction/scan_model.hpp"
+#include "vantage/model/scan_model.hpp"
 #include "bindings.hpp"
 #include "options.hpp"
-#include "vantage/io/scan_planning_options.hpp"
+#include "vantage/options/scan_planning_options.hpp"
 
 namespace vantage::python {
 namespace {

@@ -1,6 +1,6 @@
 #include "bindings.hpp"
 #include "vantage/map/integrate.hpp"
-#include "vantage/reconstruction/scan.hpp"
+#include "vantage/map/scan.hpp"
 
 namespace vantage::python {
 namespace {

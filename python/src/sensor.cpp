@@ -1,6 +1,6 @@
 #include "bindings.hpp"
-#include "vantage/io/depth_image.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/formats/depth_image.hpp"
+#include "vantage/options/reconstruct_options.hpp"
 #include "vantage/sensor/range_image.hpp"
 
 namespace vantage::python {

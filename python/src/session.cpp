@@ -5,8 +5,8 @@
 #include "bindings.hpp"
 #include "depth_input.hpp"
 #include "options.hpp"
-#include "vantage/io/robot_file.hpp"
-#include "vantage/io/scan_folder.hpp"
+#include "vantage/options/robot_file.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage::python {
 namespace {
@@ -195,7 +195,7 @@ void bind_session(py::module_& module) {
           "cloud", [](const OpenSession& session) { return session.get()->cloud(); }, Release(),
           "The fused PointCloud in the box, world frame; a copy.")
       .def(
-          "finish", [](const OpenSession& session) { session.get()->finish(); }, Release(),
+          "finish", [](const OpenSession& session) { session.get()->finish(report_page); }, Release(),
           "Writes map.nrrd, map.ply, model.ply, mesh.ply, views.csv, summary.json and report.html into the folder. "
           "Scans may be added afterwards.")
       .def_property_readonly(

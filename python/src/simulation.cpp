@@ -3,10 +3,10 @@
 #include "bindings.hpp"
 #include "options.hpp"
 #include "utility.hpp"
-#include "vantage/io/mesh_file.hpp"
-#include "vantage/io/robot_file.hpp"
-#include "vantage/reconstruction/simulate.hpp"
+#include "vantage/formats/mesh_file.hpp"
+#include "vantage/options/robot_file.hpp"
 #include "vantage/simulation/objects.hpp"
+#include "vantage/simulation/simulate.hpp"
 
 namespace vantage::python {
 namespace {
@@ -148,7 +148,7 @@ void bind_simulation(py::module_& module) {
              options.depth_noise = depth_noise;
              options.registration = "icp";  // the first pose is exact
              options.validate();
-             return std::make_unique<SimulatedRobot>(scanner, camera, options.robot_options(), seed);
+             return std::make_unique<SimulatedRobot>(scanner, camera, simulated_robot_options(options), seed);
            }),
            py::arg("scanner"), py::arg("camera"), py::kw_only(), py::arg("positioning_error") = Vec3(Vec3::Zero()),
            py::arg("depth_noise") = Eigen::Vector2d(Eigen::Vector2d::Zero()), py::arg("seed") = 1,

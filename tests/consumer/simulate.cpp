@@ -1,9 +1,9 @@
 // Takes a simulated scan, registers the same scan taken from a pose that is 5 mm off, and writes the cloud: a call into
-// each of the components that full stands for.
+// several components.
 #include <cstdio>
-#include <vantage/io/point_cloud_file.hpp>
-#include <vantage/reconstruction/registrar.hpp>
-#include <vantage/reconstruction/scan.hpp>
+#include <vantage/formats/point_cloud_file.hpp>
+#include <vantage/map/scan.hpp>
+#include <vantage/model/registrar.hpp>
 #include <vantage/simulation/objects.hpp>
 #include <vantage/simulation/range_scanner.hpp>
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "vantage/doctor/finding.hpp"
-#include "vantage/io/scan_folder.hpp"
-#include "vantage/reconstruction/from_scans.hpp"
+#include "vantage/model/from_scans.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage {
 

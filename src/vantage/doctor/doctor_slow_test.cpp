@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/test_folder.hpp"
 #include "vantage/doctor/doctor.hpp"
 #include "vantage/doctor/doctor_test_util.hpp"
 #include "vantage/doctor/pose_errors.hpp"
-#include "vantage/io/io_test_util.hpp"
 
 namespace vantage {
 namespace {

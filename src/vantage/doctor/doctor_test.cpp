@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/test_folder.hpp"
 #include "vantage/doctor/doctor_test_util.hpp"
-#include "vantage/io/io_test_util.hpp"
 #include "vantage/simulation/mesh_tools.hpp"
 #include "vantage/simulation/objects.hpp"
 #include "vantage/simulation/range_scanner.hpp"

@@ -10,9 +10,9 @@
 #include "vantage/core/geometry.hpp"
 #include "vantage/core/random.hpp"
 #include "vantage/doctor/doctor.hpp"
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/camera_file.hpp"
-#include "vantage/io/depth_image.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/formats/camera_file.hpp"
+#include "vantage/formats/depth_image.hpp"
 
 // For tests: a set of depth frames that a mistake can be made in before it is written to a folder of its own.
 namespace vantage::test {

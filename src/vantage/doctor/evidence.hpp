@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/io/scan_folder.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage {
 

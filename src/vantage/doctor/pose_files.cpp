@@ -7,9 +7,9 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/geometry.hpp"
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/natural_order.hpp"
-#include "vantage/io/text_reader.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/files/natural_order.hpp"
+#include "vantage/files/text_reader.hpp"
 
 namespace vantage {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/geometry.hpp"
-#include "vantage/io/pose_file.hpp"
-#include "vantage/io/pose_source.hpp"
+#include "vantage/formats/pose_file.hpp"
+#include "vantage/recordings/pose_source.hpp"
 
 namespace vantage {
 namespace {

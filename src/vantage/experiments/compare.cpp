@@ -8,10 +8,10 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/experiments/compare_measures.hpp"
+#include "vantage/experiments/external_planner.hpp"
 #include "vantage/experiments/known_object.hpp"
 #include "vantage/experiments/paper.hpp"
-#include "vantage/io/external_planner.hpp"
-#include "vantage/io/mesh_file.hpp"
+#include "vantage/formats/mesh_file.hpp"
 #include "vantage/utility/registry.hpp"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/experiments/protocol.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/options/reconstruct_options.hpp"
 
 namespace vantage {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/experiments/experiment_report.hpp"
 #include "vantage/experiments/local_workers.hpp"
-#include "vantage/io/experiment_report.hpp"
 
 // An experiment is a list of runs and a function that makes tables and figures of all outcomes. To add one, write a
 // function that returns it and name it in experiments.cpp:

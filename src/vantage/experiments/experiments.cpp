@@ -6,7 +6,7 @@
 #include "vantage/experiments/compare.hpp"
 #include "vantage/experiments/error_experiments.hpp"
 #include "vantage/experiments/tables.hpp"
-#include "vantage/io/options.hpp"
+#include "vantage/options/options.hpp"
 
 namespace vantage {
 namespace {

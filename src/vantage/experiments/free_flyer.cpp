@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "vantage/io/estimate.hpp"
+#include "vantage/experiments/estimate.hpp"
 
 namespace vantage {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "vantage/experiments/run_outcome.hpp"
-#include "vantage/io/svg_plot.hpp"
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/options/reconstruct_options.hpp"
+#include "vantage/report/svg_plot.hpp"
 
 // What the experiments with a robot that misses share.
 namespace vantage {

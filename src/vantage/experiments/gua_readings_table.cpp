@@ -5,7 +5,7 @@
 #include "vantage/experiments/paper.hpp"
 #include "vantage/experiments/ratio.hpp"
 #include "vantage/experiments/tables.hpp"
-#include "vantage/io/mesh_file.hpp"
+#include "vantage/formats/mesh_file.hpp"
 
 namespace vantage {
 namespace {

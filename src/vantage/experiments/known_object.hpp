@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vantage/reconstruction/simulate.hpp"
+#include "vantage/simulation/simulate.hpp"
 #include "vantage/utility/utility.hpp"
 
 // Planners that know the object: what is possible with the same candidates, start and sensor. They see which voxels a

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/mesh_file.hpp"
+#include "vantage/formats/mesh_file.hpp"
 #include "vantage/simulation/objects.hpp"
 
 namespace vantage {

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "vantage/core/parallel.hpp"
-#include "vantage/io/mesh_file.hpp"
-#include "vantage/reconstruction/simulate.hpp"
+#include "vantage/formats/mesh_file.hpp"
 #include "vantage/simulation/objects.hpp"
+#include "vantage/simulation/simulate.hpp"
 
 namespace vantage {
 namespace {

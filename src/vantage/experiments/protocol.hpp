@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "vantage/reconstruction/options.hpp"
+#include "vantage/options/reconstruct_options.hpp"
 #include "vantage/simulation/point_coverage.hpp"
 
 namespace vantage {

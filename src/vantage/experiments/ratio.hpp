@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "vantage/io/estimate.hpp"
+#include "vantage/experiments/estimate.hpp"
 
 namespace vantage {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/json_text.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/files/json_text.hpp"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "vantage/experiments/sweep_run.hpp"
-#include "vantage/io/folder_lock.hpp"
+#include "vantage/files/folder_lock.hpp"
 
 namespace vantage {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "vantage/io/json_text.hpp"
+#include "vantage/files/json_text.hpp"
 
 namespace vantage {
 namespace {

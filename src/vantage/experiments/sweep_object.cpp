@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include "vantage/io/options.hpp"
+#include "vantage/options/options.hpp"
 
 namespace vantage {
 namespace {

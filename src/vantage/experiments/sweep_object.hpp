@@ -6,8 +6,8 @@
 #include <string>
 
 #include "vantage/core/triangle_mesh.hpp"
-#include "vantage/reconstruction/simulate.hpp"
 #include "vantage/simulation/point_coverage.hpp"
+#include "vantage/simulation/simulate.hpp"
 
 namespace vantage {
 

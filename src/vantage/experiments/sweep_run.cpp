@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "vantage/io/options.hpp"
+#include "vantage/options/options.hpp"
 
 namespace vantage {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "vantage/experiments/sweep.hpp"
-#include "vantage/io/atomic_file.hpp"
+#include "vantage/files/atomic_file.hpp"
 
 namespace vantage {
 

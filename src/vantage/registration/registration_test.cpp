@@ -7,7 +7,7 @@
 #include "support/analytic_scan.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/random.hpp"
-#include "vantage/registration/scan_cloud.hpp"
+#include "vantage/sensor/scan_cloud.hpp"
 
 namespace vantage {
 namespace {

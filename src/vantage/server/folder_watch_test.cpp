@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/report.hpp"
-#include "vantage/io/run_log.hpp"
+#include "vantage/report/report.hpp"
+#include "vantage/runs/run_log.hpp"
 
 namespace vantage {
 namespace {

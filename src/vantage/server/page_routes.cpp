@@ -1,4 +1,4 @@
-#include "vantage/io/report.hpp"
+#include "vantage/report/report.hpp"
 #include "vantage/server/http_server.hpp"
 #include "vantage/server/live_run.hpp"
 

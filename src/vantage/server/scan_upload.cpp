@@ -5,9 +5,9 @@
 #include <charconv>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/png16.hpp"
-#include "vantage/io/pose_file.hpp"
-#include "vantage/io/scan_bytes.hpp"
+#include "vantage/formats/png16.hpp"
+#include "vantage/formats/pose_file.hpp"
+#include "vantage/recordings/scan_bytes.hpp"
 #include "vantage/server/multipart.hpp"
 
 namespace vantage {

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "vantage/io/camera_file.hpp"
-#include "vantage/io/scan_folder.hpp"
+#include "vantage/formats/camera_file.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 #include "vantage/session/session_scan.hpp"
 
 namespace vantage {

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "vantage/io/io_test_util.hpp"
-#include "vantage/io/png16.hpp"
+#include "support/test_folder.hpp"
+#include "vantage/formats/png16.hpp"
 #include "vantage/server/multipart.hpp"
 
 namespace vantage {

@@ -1,8 +1,8 @@
 #include "vantage/server/session_page.hpp"
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/report.hpp"
-#include "vantage/io/run_files.hpp"
+#include "vantage/runs/run_document.hpp"
+#include "vantage/runs/run_files.hpp"
 
 namespace vantage {
 

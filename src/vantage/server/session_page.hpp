@@ -3,7 +3,7 @@
 #include <mutex>
 #include <string>
 
-#include "vantage/io/run_data.hpp"
+#include "vantage/runs/run_data.hpp"
 #include "vantage/server/live_run.hpp"
 #include "vantage/session/session.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/json_text.hpp"
-#include "vantage/io/run_files.hpp"
+#include "vantage/files/json_text.hpp"
+#include "vantage/runs/run_files.hpp"
 
 namespace vantage {
 namespace {

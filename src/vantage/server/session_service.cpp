@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/ranked_views.hpp"
-#include "vantage/io/report.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/report/report.hpp"
+#include "vantage/report/static_report.hpp"
+#include "vantage/runs/ranked_views.hpp"
 #include "vantage/server/session_request.hpp"
 #include "vantage/session/session_json.hpp"
 
@@ -230,7 +231,7 @@ HttpAnswer SessionService::finish(const HttpRequest& request) {
   (void)body_object(request, {});
   if (session_->status().integrated == 0) throw HttpError(409, "there is no scan yet; add one");
   try {
-    session_->finish();
+    session_->finish(report_page);
     const std::string report = (session_->folder() / "report.html").string();
     if (const auto document = document_of_page(read_file(report), report)) page_.add_result(*document);
     return json_answer(Json::parse(read_file(session_->folder() / "summary.json")));

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "vantage/io/io_test_util.hpp"
-#include "vantage/io/png16.hpp"
+#include "support/test_folder.hpp"
+#include "vantage/formats/png16.hpp"
 
 namespace vantage {
 namespace {

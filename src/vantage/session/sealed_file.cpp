@@ -4,7 +4,7 @@
 #include <zlib.h>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/atomic_file.hpp"
+#include "vantage/files/atomic_file.hpp"
 
 namespace vantage {
 namespace {

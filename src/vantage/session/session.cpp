@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/run_folder.hpp"
+#include "vantage/runs/run_folder.hpp"
 
 namespace vantage {
 namespace {

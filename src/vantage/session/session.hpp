@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 
+#include "vantage/runs/run_folder.hpp"
 #include "vantage/session/session_folder.hpp"
 #include "vantage/session/session_model.hpp"
 
@@ -71,7 +72,7 @@ class Session {
   [[nodiscard]] PointCloud cloud();
   /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10). Scans may be
   /// added during that and after it.
-  void finish();
+  void finish(const RunPage& page);
 
  private:
   struct Waiting {

@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/atomic_file.hpp"
+#include "vantage/files/atomic_file.hpp"
 #include "vantage/session/sealed_file.hpp"
 #include "vantage/session/session_model.hpp"
 #include "vantage/session/skipped_views.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/io/folder_lock.hpp"
-#include "vantage/io/scan_planning_options.hpp"
+#include "vantage/files/folder_lock.hpp"
+#include "vantage/options/scan_planning_options.hpp"
 #include "vantage/session/session_scan.hpp"
 
 namespace vantage {

@@ -1,6 +1,6 @@
 #include "vantage/session/session_json.hpp"
 
-#include "vantage/io/run_files.hpp"
+#include "vantage/runs/run_files.hpp"
 
 namespace vantage {
 namespace {

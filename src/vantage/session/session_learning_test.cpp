@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "support/test_folder.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/io_test_util.hpp"
 #include "vantage/session/session_test_util.hpp"
 
 namespace vantage {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "vantage/io/scan_planning_options.hpp"
-#include "vantage/reconstruction/scan_model.hpp"
+#include "vantage/model/scan_model.hpp"
+#include "vantage/options/scan_planning_options.hpp"
 #include "vantage/session/session_scan.hpp"
 
 namespace vantage {

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/run_folder.hpp"
+#include "vantage/runs/run_folder.hpp"
 #include "vantage/session/session.hpp"
 
 namespace vantage {
@@ -28,7 +28,7 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
 
 }  // namespace
 
-void Session::finish() {
+void Session::finish(const RunPage& page) {
   const std::lock_guard finishing(finishing_);
   const auto start = Clock::now();
   const SessionPlan last = next();
@@ -45,8 +45,7 @@ void Session::finish() {
   RunSummary summary;
   summary.object = std::filesystem::absolute(folder()).lexically_normal().filename().string();
   summary.stop_reason = last.why_finished;
-  run.finish(model.model(), summary, last.plan, std::chrono::duration<double>(Clock::now() - start).count(),
-             RunPictures::mesh_and_report);
+  run.finish(model.model(), summary, last.plan, std::chrono::duration<double>(Clock::now() - start).count(), page);
 }
 
 }  // namespace vantage

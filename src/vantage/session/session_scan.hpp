@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "vantage/reconstruction/registrar.hpp"
-#include "vantage/reconstruction/scan.hpp"
+#include "vantage/map/scan.hpp"
+#include "vantage/model/registrar.hpp"
 
 namespace vantage {
 

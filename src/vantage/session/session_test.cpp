@@ -7,9 +7,9 @@
 #include <new>
 #include <thread>
 
+#include "support/test_folder.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/io/atomic_file.hpp"
-#include "vantage/io/io_test_util.hpp"
+#include "vantage/files/atomic_file.hpp"
 #include "vantage/session/sealed_file.hpp"
 #include "vantage/session/session_test_util.hpp"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.hpp"
-#include "vantage/io/json_text.hpp"
+#include "vantage/files/json_text.hpp"
 
 namespace vantage {
 

@@ -1,0 +1,100 @@
+#include "vantage/model/from_scans.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr int default_voxels_along_box = 55;  // as in the paper
+constexpr double margin = 0.05;               // around all points, as a share of their extent
+
+Box3 box_around(const std::vector<PendingScan>& scans) {
+  Box3 box;
+  for (const PendingScan& scan : scans) {
+    for (const Vec3& point : points_of(scan.read()).points) box.extend(scan.believed.world_from_sensor * point);
+  }
+  require(!box.isEmpty(), "scans: none of the ", scans.size(), " scans has a single measured point");
+  const Vec3 grown = margin * box.sizes();
+  return {box.min() - grown, box.max() + grown};
+}
+
+}  // namespace
+
+void ScanPlanOptions::validate() const {
+  if (box) {
+    require((box->tail<3>().array() > 0).all(), "box = ", box->transpose(),
+            ": the sizes (last three) must be positive");
+  }
+  require(!voxel || *voxel > 0, "voxel = ", voxel.value_or(0), " m: must be positive");
+  require(!radius || *radius > 0, "radius = ", radius.value_or(0), " m: must be positive");
+  require(pose_error > 0, "pose-error = ", pose_error, " m: must be positive; use registration none for exact poses");
+  require(pose_angle_error > 0 && pose_angle_error <= 90, "pose-angle-error = ", pose_angle_error,
+          " degrees: must be in (0, 90]");
+  require(surroundings >= 0, "surroundings = ", surroundings, ": must not be negative");
+  require(registration == "icp" || registration == "none", "registration = '", registration,
+          "': must be icp or none (the truth is known in simulation only)");
+}
+
+Vec3 sensor_position(const Scan& scan, const View& view) {
+  const auto* lines = std::get_if<PointScan>(&scan);
+  if (lines == nullptr || lines->origins.empty()) return view.position();
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& origin : lines->origins) sum += origin;
+  return view.world_from_sensor * Vec3(sum / static_cast<double>(lines->origins.size()));
+}
+
+std::optional<Box3> given_box(const ScanPlanOptions& options) {
+  if (!options.box) return std::nullopt;
+  const Vec3 center = options.box->head<3>();
+  const Vec3 half = 0.5 * options.box->tail<3>();
+  return Box3(center - half, center + half);
+}
+
+ScanScene scene_in(const Box3& box, const ScanPlanOptions& options) {
+  ScanScene fitted;
+  fitted.scene.center = box.center();
+  fitted.scene.voxel_length = options.voxel.value_or(box.sizes().maxCoeff() / default_voxels_along_box);
+  const Vec3 voxels = (box.sizes() / fitted.scene.voxel_length).array() - 1e-9;
+  require(voxels.maxCoeff() < 1e6, "box of ", box.sizes().transpose(), " m with voxels of ", fitted.scene.voxel_length,
+          " m does not fit in memory: use longer voxels");
+  fitted.scene.enclosure_size = voxels.array().ceil().matrix().cast<int>().cwiseMax(1);
+  fitted.scene.scene_size = fitted.scene.enclosure_size;
+  fitted.scene.validate();
+
+  const Vec3 around = Vec3::Constant(options.surroundings * box.sizes().maxCoeff());
+  fitted.region = Box3(box.min() - around, box.max() + around);
+  if (options.radius) fitted.radius = *options.radius;
+  return fitted;
+}
+
+std::size_t points_in(const Box3& box, const Scan& scan, const View& believed) {
+  const std::vector<Vec3> points = points_of(scan).points;
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3& point) {
+    return box.contains(believed.world_from_sensor * point);
+  }));
+}
+
+ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
+  options.validate();
+  require(!scans.empty(), "scans: there are none");
+  const std::optional<Box3> given = given_box(options);
+  const Box3 box = given ? *given : box_around(scans);
+  ScanScene fitted = scene_in(box, options);
+  double distance = 0;
+  std::size_t hits = 0;
+  for (const PendingScan& pending : scans) {
+    const Scan scan = pending.read();
+    distance += (sensor_position(scan, pending.believed) - box.center()).norm();
+    hits += points_in(box, scan, pending.believed);
+  }
+  require(hits > 0, "box: none of the ", scans.size(), " scans has a point in the box around (",
+          box.center().transpose(), ") of size (", box.sizes().transpose(),
+          ") m; `vantage doctor` tells whether poses, units or the box are wrong");
+  if (!options.radius) fitted.radius = distance / static_cast<double>(scans.size());
+  return fitted;
+}
+
+}  // namespace vantage

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+
+#include "vantage/map/scan.hpp"
+#include "vantage/model/registrar.hpp"
+#include "vantage/model/scan_record.hpp"
+#include "vantage/planning/planner.hpp"
+#include "vantage/robot/error_learner.hpp"
+#include "vantage/robot/robot.hpp"
+
+namespace vantage {
+
+/// What is known of the object: the paper's M.
+struct ObjectModel {
+  VoxelMap map;
+  ModelSurface surface;  // the fused cloud of all merged scans
+  std::vector<ScanRecord> scans;
+
+  /// `point_spacing`: metres between the points that the fused cloud keeps.
+  ObjectModel(const SceneOptions& scene, double point_spacing) : map(scene), surface(point_spacing) {}
+};
+
+/// Registers a scan and, where that succeeds, merges it into the model and relabels the map. Returns the record of the
+/// scan with everything that follows from the map; the caller adds the plan, the distance and the truth.
+[[nodiscard]] ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Registrar& registrar,
+                                QualityReference quality = QualityReference::axis);
+
+/// Teaches the learner the error of a scan that was merged, and notes in the record what is known then. True where the
+/// scan taught something: the first one defines the frame that the others are registered in.
+bool teach(ErrorLearner& learner, ScanRecord& record);
+
+/// When to stop although there is more to see (spec, section 5).
+struct Budget {
+  int max_views = 40;
+  double max_distance = std::numeric_limits<double>::infinity();  // as moves are counted: metres, or radians of joints
+  double max_time = std::numeric_limits<double>::infinity();      // seconds
+  int max_fruitless_scans = 4;                                    // in a row, without a new occupied voxel
+
+  void validate() const;
+};
+
+/// Algorithm 1 of the paper: scan, update, plan, move, until nothing is left to see. The members are what it works
+/// with; a caller replaces those it needs.
+class Reconstruction {
+ public:
+  Reconstruction(Robot& robot, Planner& planner, Registrar& registrar)
+      : robot_(robot), planner_(planner), registrar_(registrar) {}
+
+  Budget budget;
+  QualityReference quality = QualityReference::axis;
+  /// Learns how the robot errs from every merged scan and tells the planner; none by default.
+  std::optional<ErrorLearner> learner;
+  /// Called with each finished record before it is added to the model; may add what only the caller knows (coverage).
+  std::function<void(ScanRecord&, const Scan&, const ObjectModel&, const Plan*)> on_scan =
+      [](ScanRecord&, const Scan&, const ObjectModel&, const Plan*) {};
+  /// Called with each plan before the robot moves.
+  std::function<void(const Plan&)> on_plan = [](const Plan&) {};
+  /// Asked between scans; true ends the reconstruction with what has been scanned so far.
+  std::function<bool()> interrupted = [] { return false; };
+
+  /// Starts at candidate `initial_candidate`. Throws InputError where it is not feasible.
+  void run(ObjectModel& model, int initial_candidate);
+  /// Why run() ended.
+  [[nodiscard]] const std::string& stop_reason() const { return stop_reason_; }
+
+ private:
+  void scan_and_update(ObjectModel& model, const View& commanded, const Plan* plan, int candidate, double plan_seconds);
+  [[nodiscard]] std::string why_stop(const ObjectModel& model, double seconds) const;
+
+  Robot& robot_;
+  Planner& planner_;
+  Registrar& registrar_;
+  std::string stop_reason_;
+};
+
+}  // namespace vantage

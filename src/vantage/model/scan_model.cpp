@@ -1,0 +1,73 @@
+#include "vantage/model/scan_model.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace vantage {
+namespace {
+
+int candidate_at(const Candidates& candidates, const View& view) {
+  constexpr double near = 0.01;  // of the distance to the center
+  const double least_cosine = std::cos(radians(1));
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < candidates.views.size(); ++i) {
+    const View& candidate = candidates.views[i];
+    const double distance = (candidate.position() - view.position()).norm();
+    if (distance >= least || distance > near * (candidate.position() - candidates.center).norm()) continue;
+    if (candidate.axis().dot(view.axis()) < least_cosine) continue;
+    least = distance;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& scene) {
+  if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
+  RegistrationOptions registration;
+  // Real frames are noisy: surfels of two voxels average that out. And a robot's poses are good: what the surfaces
+  // leave open stays as the robot says.
+  registration.search_radius = options.pose_error;
+  registration.orientation_error = radians(options.pose_angle_error) / 3;
+  registration.spacing = scene.scene.voxel_length;
+  registration.finest_cell_in_spacings = 2;
+  registration.trust = 0.01;
+  registration.largest_open_misfit = options.pose_error;
+  registration.largest_share_in_free_space = 0.2;
+  return std::make_unique<IcpRegistrar>(registration, scene.region);
+}
+
+ScanModel::ScanModel(const ScanScene& scene) : model_(scene.scene, scene.scene.voxel_length / 4) {}
+
+const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& scan, const View& believed,
+                                 Registrar& registrar) {
+  ScanRecord record = update(model_, scan, believed, registrar);
+  record.candidate = origin.candidate;
+  record.commanded = origin.commanded.value_or(believed);
+  record.reason = origin.name;
+  const Vec3 position = sensor_position(scan, record.registered);
+  record.distance = model_.scans.empty() ? 0 : model_.scans.back().distance + (position - current_.position()).norm();
+  current_ = record.registered;
+  current_.world_from_sensor.translation() = position;
+  if (learner) {
+    if (origin.commanded) {
+      (void)teach(*learner, record);
+    } else {
+      record.learned_error = learner->estimate();
+    }
+  }
+  model_.scans.push_back(std::move(record));
+  return model_.scans.back();
+}
+
+void tell_of_scans(Planner& planner, std::span<const ScanRecord> scans) {
+  for (const ScanRecord& scan : scans) {
+    if (!scan.merged) continue;
+    planner.scanned(scan.registered,
+                    scan.candidate >= 0 ? scan.candidate : candidate_at(planner.candidates(), scan.registered));
+  }
+}
+
+}  // namespace vantage

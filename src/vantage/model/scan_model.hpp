@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "vantage/model/from_scans.hpp"
+#include "vantage/planning/planner.hpp"
+#include "vantage/robot/error_learner.hpp"
+
+namespace vantage {
+
+/// Finds the poses of real scans: ICP with what noisy frames and good robots ask for, or the poses as they are.
+[[nodiscard]] std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& scene);
+
+/// What is known of how a scan came about.
+struct ScanOrigin {
+  std::string name;                    // becomes the reason in its record
+  int candidate = -1;                  // the view it was planned as; -1 where it was not planned
+  std::optional<View> commanded = {};  // where the sensor was sent, if that is known
+};
+
+/// What real scans, merged one after the other, come to.
+class ScanModel {
+ public:
+  explicit ScanModel(const ScanScene& scene);
+
+  /// Learns how the robot errs from every merged scan whose commanded view is known; none by default.
+  std::optional<ErrorLearner> learner;
+
+  /// Registers the scan, merges it where that succeeds, and notes it.
+  const ScanRecord& add(const ScanOrigin& origin, const Scan& scan, const View& believed, Registrar& registrar);
+
+  [[nodiscard]] const ObjectModel& model() const { return model_; }
+  /// Where the sensor is: at its last scan, in the middle of its sight lines' origins.
+  [[nodiscard]] const View& current() const { return current_; }
+
+ private:
+  ObjectModel model_;
+  View current_;
+};
+
+/// Tells a planner from where scans were merged, as the loop of a run does after each of them: utilities with a memory
+/// ask for it. A scan that was not planned counts as taken from the candidate that it stands at, if there is one: to
+/// 1 % of the distance to the center and 1 degree.
+void tell_of_scans(Planner& planner, std::span<const ScanRecord> scans);
+
+}  // namespace vantage

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/formats/camera_file.hpp"
+#include "vantage/map/scan.hpp"
+
+namespace vantage {
+
+/// How to read a folder of scans.
+struct ScanFolderOptions {
+  double depth_scale = 0.001;  // metres per unit of a depth image
+  /// Metres. Nearer is unknown, farther is "nothing up to there".
+  Eigen::Vector2d depth_range{0, 4.5};
+  /// Value of a depth image that says "nothing there", where the sensor knows it.
+  std::optional<int> no_return = std::nullopt;
+  /// Folder of pose files or trajectory, in the scans' folder or by its own path; empty: beside the scans.
+  std::string poses = "";
+  /// File, likewise; empty: one of the usual names.
+  std::string intrinsics = "";
+  /// Folder of masks NAME.mask.png, likewise; empty: those that lie beside the scans.
+  std::string masks = "";
+  /// y and z of the point where the sight lines of a Stanford scan meet, metres in its frame.
+  Eigen::Vector2d scanner_origin{0.18, 1.3};
+  /// Unit of poses, clouds and floating-point depths: m, cm, mm or inch.
+  std::string unit = "m";
+  /// Pose of the sensor in the frame of the robot's hand, whose poses are given then: seven numbers x,y,z,qx,qy,qz,qw
+  /// or a pose file; empty: the poses are the sensor's.
+  std::string hand_eye = "";
+  /// World box cx cy cz sx sy sz, metres: what is measured outside says nothing.
+  std::optional<Eigen::Matrix<double, 6, 1>> crop = std::nullopt;
+  /// Frame of a cloud's points, sensor or world; then the pose says only where the sensor was.
+  std::string cloud_frame = "sensor";
+
+  /// Throws InputError naming the option.
+  void validate() const;
+  [[nodiscard]] double metres_per_unit() const;
+  /// Whether `hand_eye` names a file, rather than being empty or numbers.
+  [[nodiscard]] bool hand_eye_is_file() const { return !hand_eye.empty() && hand_eye.find(',') == std::string::npos; }
+};
+
+template <class Field>
+void describe(ScanFolderOptions& o, Field&& field) {
+  field("depth-scale", o.depth_scale, "m", "what one unit of a depth image means");
+  field("depth-range", o.depth_range, "m", "nearest and farthest depth to trust; beyond is free space up to the limit");
+  field("no-return", o.no_return, "", "value of a depth image that says that nothing is there");
+  field("poses", o.poses, "", "folder of pose files or trajectory (TUM); beside the frames if not given");
+  field("intrinsics", o.intrinsics, "", "file with the intrinsics; one of the usual names if not given");
+  field("masks", o.masks, "",
+        "folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given");
+  field("unit", o.unit, "", "unit of poses, clouds and floating-point depths: m, cm, mm or inch");
+  field("hand-eye", o.hand_eye, "unit",
+        "pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's");
+  field("crop", o.crop, "m", "box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing");
+  field("cloud-frame", o.cloud_frame, "", "frame of the points of clouds: sensor, or world");
+  field("scanner-origin", o.scanner_origin, "m", "y,z of the sight lines' origin of a line scanner (.conf)");
+}
+
+/// One scan of a set: where it was taken, as far as is believed, and how to get it.
+struct ScanFile {
+  std::string name;
+  View view;
+  std::function<Scan()> read;  // opens the file; throws InputError naming it
+};
+
+struct ScanSet {
+  std::vector<ScanFile> scans;        // by name, numbers by value
+  std::optional<RangeCamera> camera;  // of depth images
+};
+
+/// The scans of
+/// - a folder with `NAME.depth.png` (16 bit), `NAME.depth.exr` or `NAME.depth.raw` (floats), intrinsics
+/// (`camera-intrinsics.txt`,
+///   `camera_info.yaml`, `intrinsics.json` ...) and `NAME.pose.txt` or `NAME.pose.json` each, or a trajectory whose
+///   times are the names, or as long as there are frames;
+/// - a folder with clouds `NAME.ply`, `.pcd`, `.xyz`, `.xyzn` in the sensor's frame and such poses;
+/// - a Stanford `.conf` with its range grids, or the folder it lies in.
+/// Poses and intrinsics are read at once, images and clouds on demand. Throws InputError naming the file and what is
+/// missing.
+[[nodiscard]] ScanSet open_scans(const std::filesystem::path& path, const ScanFolderOptions& options = {});
+
+}  // namespace vantage

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "vantage/model/reconstruction.hpp"
+
+namespace vantage {
+
+/// What a reconstruction came to, beside the model itself.
+struct RunSummary {
+  std::string object;
+  std::string stop_reason;
+  std::uint64_t seed = 0;
+  /// Distances of the fused points to the true surface, metres, and shares of the true surface within 5 mm of a fused
+  /// point; known in simulation only.
+  std::optional<double> accuracy_rms, accuracy_95, completeness, completeness_all;
+};
+
+/// A pose as x y z qx qy qz qw with qw >= 0.
+[[nodiscard]] std::array<double, 7> pose_numbers(const Pose& pose);
+
+/// Mean and covariance of x, y, z, pan, tilt, roll; metres and degrees.
+[[nodiscard]] nlohmann::ordered_json pose_error_json(const PoseError& error);
+
+/// One scan as the keys of spec section 10; absent values are null. Poses are arrays of 7 numbers.
+[[nodiscard]] nlohmann::ordered_json scan_json(const ScanRecord& record);
+
+/// The content of `summary.json`.
+[[nodiscard]] nlohmann::ordered_json summary_json(const ObjectModel& model, const RunSummary& summary);
+
+/// The content of `views.csv`: a header and one row per scan; poses take seven columns each.
+[[nodiscard]] std::string views_csv(const std::vector<ScanRecord>& scans);
+
+/// The content of `timings.json`: seconds per scan and step, and `total` for the whole run.
+[[nodiscard]] nlohmann::ordered_json timings_json(const std::vector<ScanRecord>& scans, double total_seconds);
+
+}  // namespace vantage

@@ -1,0 +1,121 @@
+#include "vantage/runs/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+#include "vantage/files/atomic_file.hpp"
+#include "vantage/formats/depth_image.hpp"
+#include "vantage/formats/map_file.hpp"
+#include "vantage/formats/mesh_file.hpp"
+#include "vantage/formats/point_cloud_file.hpp"
+#include "vantage/formats/pose_file.hpp"
+#include "vantage/model/surface_mesh.hpp"
+#include "vantage/runs/run_document.hpp"
+
+namespace vantage {
+
+namespace {
+
+constexpr double finest_depth_unit = 1e-4;  // metres
+constexpr int no_return = 65535;
+
+/// A depth unit with which the camera's far limit fits into 16 bits.
+DepthEncoding encoding_for(const RangeCamera& camera) {
+  const double coarsest = std::max(finest_depth_unit, camera.max_depth / (no_return - 1));
+  return {.metres_per_unit = std::ceil(coarsest / finest_depth_unit - 1e-9) * finest_depth_unit,
+          .no_return = no_return};
+}
+
+std::string intrinsics_text(const RangeCamera& camera) {
+  const double fx = camera.resolution.columns / (camera.right - camera.left);
+  const double fy = camera.resolution.rows / (camera.bottom - camera.top);
+  return fmt::format("{} 0 {}\n0 {} {}\n0 0 1\n", fx, -0.5 - camera.left * fx, fy, -0.5 - camera.top * fy);
+}
+
+/// A frame as `vantage plan` reads it, with what it needs to know about all frames beside it.
+void write_frame(const std::filesystem::path& folder, const ScanRecord& record, const RangeImage& image) {
+  const DepthEncoding encoding = encoding_for(image.camera);
+  const std::string name = fmt::format("scan-{:03}", record.scan);
+  write_depth_png(folder / (name + ".depth.png"), image, encoding);
+  write_pose(folder / (name + ".pose.txt"), record.registered.world_from_sensor);
+  if (record.scan > 0) return;
+  write_file_atomically(folder / "camera-intrinsics.txt", intrinsics_text(image.camera));
+  write_file_atomically(
+      folder / "scans.yaml",
+      fmt::format("# vantage plan THIS_FOLDER --config THIS_FILE\ndepth-scale: {}\nno-return: {}\n"
+                  "depth-range: [{}, {}]\n",
+                  encoding.metres_per_unit, no_return, image.camera.min_depth, image.camera.max_depth));
+}
+
+}  // namespace
+
+PointCloud object_cloud(const ObjectModel& model) {
+  const PointCloud& all = model.surface.cloud();
+  PointCloud inside;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (model.map.enclosure().contains(model.map.grid().index_of(all.points[i]))) {
+      inside.add(all.points[i], all.normals[i]);
+    }
+  }
+  return inside;
+}
+
+RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
+    : path_(std::move(path)), description_(std::move(description)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_ / "scans", error);
+  if (error) throw Error(fmt::format("cannot create the output folder {}: {}", path_.string(), error.message()));
+  data_.command = description_.command;
+  data_.object = description_.object;
+  data_.program = description_.program;
+  data_.options = description_.options;
+  data_.camera = description_.camera;
+  data_.candidates = description_.candidates;
+  data_.candidates_text = description_.candidates_text;
+  data_.seed = description_.seed;
+  data_.simulated = description_.truth.has_value();
+  if (description_.truth) data_.truth = *description_.truth;
+  data_.state = RunData::State::running;
+}
+
+void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
+  if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path_ / "scans", record, image->image);
+  data_.grid = model.map.grid();
+  data_.enclosure = model.map.enclosure();
+  if (on_event && data_.scans.empty()) on_event("run", run_json(data_));
+  data_.add_scan(record, model, plan);
+  if (on_event) on_event("scan", scan_json(data_.scans.back()));
+}
+
+void RunFolder::add_plan(const Plan& plan) {
+  if (on_event) on_event("plan", plan_json(candidate_plan(plan, description_.candidates.views.size())));
+}
+
+void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
+                       double total_seconds, const RunPage& page) {
+  write_map(model.map, path_ / "map.nrrd");
+  write_cloud_ply(path_ / "model.ply", object_cloud(model));
+  write_file_atomically(path_ / "config.yaml", description_.config);
+  write_file_atomically(path_ / "views.csv", views_csv(model.scans));
+  write_file_atomically(path_ / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
+  write_file_atomically(path_ / "summary.json", summary_json(model, summary).dump(2) + "\n");
+  if (!page && !on_event) return;
+  data_.finish(model, summary.stop_reason);
+  if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
+  if (page) write_report(model, total_seconds, page);
+  if (!on_event) return;
+  if (data_.next) on_event("plan", plan_json(*data_.next));
+  on_event("result", result_json(data_));
+  on_event("state", state_json(data_));
+}
+
+void RunFolder::write_report(const ObjectModel& model, double total_seconds, const RunPage& page) {
+  const TriangleMesh mesh = surface_mesh(object_cloud(model));
+  if (!mesh.triangles.empty()) write_mesh_ply(path_ / "mesh.ply", mesh);
+  data_.mesh = mesh;
+  write_file_atomically(path_ / "report.html", page(data_, model.map, total_seconds));
+}
+
+}  // namespace vantage

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+#include "vantage/runs/run_data.hpp"
+#include "vantage/runs/run_files.hpp"
+
+namespace vantage {
+
+/// What stays the same during a run.
+struct RunDescription {
+  std::string command;                                       // what makes it: reconstruct, plan
+  std::string object;                                        // what people call it
+  std::string program;                                       // version
+  std::vector<std::pair<std::string, std::string>> options;  // name and value, in the order to be shown
+  std::string config;                                        // config.yaml: all that is needed to repeat the run
+  RangeCamera camera;
+  Candidates candidates;
+  std::string candidates_text;
+  std::optional<TriangleMesh> truth;  // simulation only
+  std::optional<std::uint64_t> seed;  // of what is random in the run
+};
+
+/// The page that shows a finished run, for report.html. `seconds`: wall-clock time of the whole run.
+using RunPage = std::function<std::string(const RunData& run, const VoxelMap& map, double seconds)>;
+
+/// The output folder of a reconstruction (spec, section 10). Scans are written as they are taken; the rest at the end.
+/// Every file appears under its name only when it is complete.
+class RunFolder {
+ public:
+  /// Creates the folder. Throws Error where that is not possible.
+  RunFolder(std::filesystem::path path, RunDescription description);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Hears all that a page needs to follow the run (docs/report-data.md, "Live"): `run` with the whole document at the
+  /// first scan, `scan`, `plan`, and `result` and `state` at the end.
+  std::function<void(std::string_view event, const nlohmann::ordered_json& data)> on_event;
+
+  /// Notes a scan for the report and writes it to `scans/`: what the sensor measured, and the registered pose (the
+  /// believed one where registration failed). `model` as it is after the scan.
+  void add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan);
+  /// Tells of a plan that will lead to the next scan.
+  void add_plan(const Plan& plan);
+  /// Writes everything else; mesh.ply and report.html where there is a `page`.
+  void finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
+              double total_seconds, const RunPage& page);
+
+ private:
+  void write_report(const ObjectModel& model, double total_seconds, const RunPage& page);
+
+  std::filesystem::path path_;
+  RunDescription description_;
+  RunData data_;
+};
+
+/// Points of the fused cloud that lie in the object's enclosure.
+[[nodiscard]] PointCloud object_cloud(const ObjectModel& model);
+
+}  // namespace vantage
