@@ -19,6 +19,8 @@ vantage_check(Repository.IncludesObeyTheLayers ${python} ${repository}/layers.py
 vantage_check(Repository.LayerCheckCatchesForbiddenIncludes ${python} ${repository}/layers_test.py)
 vantage_check(Repository.FilesAreShortAndFitAnyMachine ${python} ${repository}/repository.py .)
 vantage_check(Repository.FileCheckFindsWhatItShould ${python} ${repository}/repository_test.py)
+vantage_check(Repository.NoTypeIsDefinedTwice ${python} ${repository}/definitions.py .)
+vantage_check(Repository.DefinitionCheckFindsWhatItShould ${python} ${repository}/definitions_test.py)
 vantage_check(Repository.DocumentCheckFindsWhatItShould ${python} ${repository}/documents_test.py)
 if(VANTAGE_APPS)
   vantage_check(Repository.DocumentsNameWhatExists ${python} ${repository}/documents.py . $<TARGET_FILE:vantage>)

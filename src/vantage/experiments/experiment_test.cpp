@@ -47,7 +47,7 @@ TEST(Experiments, TellOfFailedRunsAndReportTheOthers) {
     return {ExperimentTable()};
   };
   const std::vector<Experiment> both{good, bad};
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const RunStore store(folder.path(), "program");
   SingleRank alone;
   const auto parts = report_parts(both, run_sweep(runs_of(both), store, alone));

@@ -14,7 +14,7 @@ RunOutcome outcome_of(const SweepRun& run) {
 }
 
 TEST(RunStore, GivesBackWhatWasSaved) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const SweepRun run = square(7, nobody_counts);
   {
     const RunStore store(folder.path(), "program 1");
@@ -28,14 +28,14 @@ TEST(RunStore, GivesBackWhatWasSaved) {
 }
 
 TEST(RunStore, DoesNotTakeWhatAnotherProgramMade) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const SweepRun run = square(7, nobody_counts);
   RunStore(folder.path(), "program 1").save(run, outcome_of(run));
   EXPECT_FALSE(RunStore(folder.path(), "program 2").load(run));
 }
 
 TEST(RunStore, ComparesTheWholeConfigurationAndNotTheFileNameAlone) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const RunStore store(folder.path(), "program");
   const SweepRun seven = square(7, nobody_counts), eight = square(8, nobody_counts);
   store.save(seven, outcome_of(seven));
@@ -50,7 +50,7 @@ TEST(RunStore, ComparesTheWholeConfigurationAndNotTheFileNameAlone) {
 }
 
 TEST(RunStore, RepeatsRunsThatFailed) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const RunStore store(folder.path(), "program");
   const SweepRun run = square(13, nobody_counts);
   store.save_failure(run, "bad luck");
@@ -59,7 +59,7 @@ TEST(RunStore, RepeatsRunsThatFailed) {
 }
 
 TEST(RunStore, RepeatsRunsWhoseFileIsDamaged) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const RunStore store(folder.path(), "program");
   const SweepRun run = square(5, nobody_counts);
   store.save(run, outcome_of(run));
@@ -77,13 +77,13 @@ TEST(RunStore, RepeatsRunsWhoseFileIsDamaged) {
 }
 
 TEST(RunStore, KeepsTwoSweepsOutOfOneFolder) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const RunStore first(folder.path(), "program");
   EXPECT_THROW(RunStore(folder.path(), "program"), Error);
 }
 
 TEST(RunStore, RemovesWhatAKilledSweepWasWriting) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   { const RunStore store(folder.path(), "program"); }
   write_file_atomically(folder.path() / "runs" / "kept.json", "{}");
   write_file_atomically(folder.path() / "runs" / ".kept.json.123-0.tmp", "{");

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 Count counter() { return std::make_shared<std::atomic<int>>(0); }
 
-std::vector<RunResult> run_alone(const std::vector<SweepRun>& runs, const ScratchFolder& folder,
+std::vector<RunResult> run_alone(const std::vector<SweepRun>& runs, const SweepFolder& folder,
                                  const SweepControl& control = {}) {
   const RunStore store(folder.path(), "program");
   SingleRank alone;
@@ -62,7 +62,7 @@ class MailRanks : public Ranks {
   int rank_;
 };
 
-std::vector<RunResult> run_on_ranks(int size, const std::vector<SweepRun>& runs, const ScratchFolder& folder) {
+std::vector<RunResult> run_on_ranks(int size, const std::vector<SweepRun>& runs, const SweepFolder& folder) {
   MailRanks::Office office(size);
   std::vector<std::thread> helpers;
   for (int rank = 1; rank < size; ++rank)
@@ -78,7 +78,7 @@ std::vector<RunResult> run_on_ranks(int size, const std::vector<SweepRun>& runs,
 }
 
 TEST(Sweep, RunsEverythingAndKeepsOneFilePerRun) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const Count worked = counter();
   expect_squares(run_alone(squares(30, worked), folder), 30);
   EXPECT_EQ(worked->load(), 30);
@@ -86,7 +86,7 @@ TEST(Sweep, RunsEverythingAndKeepsOneFilePerRun) {
 }
 
 TEST(Sweep, AFailingRunIsToldAndStopsNoOther) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   SweepProgress last;
   SweepControl control;
   control.progress = [&last](const SweepProgress& progress) { last = progress; };
@@ -99,7 +99,7 @@ TEST(Sweep, AFailingRunIsToldAndStopsNoOther) {
 }
 
 TEST(Sweep, GoesOnWhereItWasAndTriesAgainWhatFailed) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const Count first = counter(), second = counter();
   (void)run_alone(squares(20, first), folder);
   const auto before = folder.runs();
@@ -110,7 +110,7 @@ TEST(Sweep, GoesOnWhereItWasAndTriesAgainWhatFailed) {
 }
 
 TEST(Sweep, DoesEqualRunsOnce) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const Count worked = counter();
   std::vector<SweepRun> runs = squares(10, worked);
   for (int number = 0; number < 10; ++number) {
@@ -123,7 +123,7 @@ TEST(Sweep, DoesEqualRunsOnce) {
 }
 
 TEST(Sweep, AnInterruptedSweepKeepsWhatIsFinished) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const Count worked = counter();
   SweepControl control;
   control.interrupted = [worked] { return worked->load() >= 5; };
@@ -139,13 +139,13 @@ TEST(Sweep, AnInterruptedSweepKeepsWhatIsFinished) {
 }
 
 TEST(Sweep, ResultsAreTheSameForAnyNumberOfRanksAndThreads) {
-  const ScratchFolder alone;
+  const SweepFolder alone;
   (void)run_alone(squares(24, counter()), alone);
   int cases = 0;
   for (const int ranks : {1, 2, 3, 5}) {
     for (const std::size_t threads : {1U, 2U, 4U}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      const ScratchFolder folder;
+      const SweepFolder folder;
       const Count worked = counter();
       expect_squares(run_on_ranks(ranks, squares(24, worked), folder), 24);
       EXPECT_EQ(worked->load(), 24) << ranks << " ranks";
@@ -157,7 +157,7 @@ TEST(Sweep, ResultsAreTheSameForAnyNumberOfRanksAndThreads) {
 }
 
 TEST(Sweep, RunsThatMeasureTimeHaveTheMachineAlone) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const Count worked = counter();
   const auto active = std::make_shared<std::atomic<int>>(0);
   std::vector<SweepRun> runs;
@@ -182,7 +182,7 @@ TEST(Sweep, RunsThatMeasureTimeHaveTheMachineAlone) {
 }
 
 TEST(Sweep, AllRanksEndWhereNothingIsLeftToDo) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   const Count worked = counter();
   (void)run_alone(squares(5, worked), folder);
   expect_squares(run_on_ranks(3, squares(5, worked), folder), 5);
@@ -190,7 +190,7 @@ TEST(Sweep, AllRanksEndWhereNothingIsLeftToDo) {
 }
 
 TEST(Sweep, RefusesRanksThatHaveOtherRuns) {
-  const ScratchFolder folder;
+  const SweepFolder folder;
   MailRanks::Office office(2);
   MailRanks first(office, 0), second(office, 1);
   second.send(0, R"({"kind":"want","run":0,"text":"other","error":"","interrupted":false})");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -10,33 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "support/test_folder.hpp"
 #include "vantage/experiments/sweep.hpp"
 #include "vantage/files/atomic_file.hpp"
 
 namespace vantage {
 
-/// A folder for one test, empty at first and gone afterwards.
-class ScratchFolder {
+/// A fresh folder for the stored runs of one test.
+class SweepFolder : public TestFolder {
  public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "vantage-sweep-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
   /// Name and content of every file in runs/.
   [[nodiscard]] std::map<std::string, std::string> runs() const {
     std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(path_ / "runs"))
+    for (const auto& entry : std::filesystem::directory_iterator(path() / "runs"))
       files[entry.path().filename().string()] = read_file(entry.path());
     return files;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Counts how often a run has been worked on.

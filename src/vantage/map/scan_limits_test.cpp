@@ -41,8 +41,8 @@ TEST(StepCounts, RangeOfABlockHoldsItsVoxels) {
 }
 
 /// Random depths for a random view of a random map.
-struct Scene {
-  explicit Scene(Random& random)
+struct LimitsScene {
+  explicit LimitsScene(Random& random)
       : map(test::unmarked_map(random)),
         view(test::random_view(map, random, test::stands[random.index(4)])),
         image{test::random_camera(map, view, random), {}},
@@ -74,7 +74,7 @@ TEST(ScanLimits, SayOfEveryVoxelOnARayWhatTheTraversalSays) {
   int voxels = 0;
   int points = 0;
   for (int scenes = 0; scenes < 300; ++scenes) {
-    const Scene scene(random);
+    const LimitsScene scene(random);
     const Grid& grid = scene.map.grid();
     const RayGrid rays = scene.image.camera.rays();
     std::vector<ScanPoint> found;
@@ -120,7 +120,7 @@ TEST(ScanLimits, RangesHoldTheirPixelsAndNoneFarAway) {
   Random random(83);
   int ranges = 0;
   for (int scenes = 0; scenes < 100; ++scenes) {
-    const Scene scene(random);
+    const LimitsScene scene(random);
     const Resolution image = scene.image.camera.resolution;
     for (int i = 0; i < 20; ++i, ++ranges) {
       PixelRect rect{random.index(image.columns), 0, random.index(image.rows), 0};

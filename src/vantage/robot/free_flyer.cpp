@@ -1,7 +1,7 @@
 #include "vantage/robot/free_flyer.hpp"
 
 #include "vantage/core/error.hpp"
-#include "vantage/robot/free_space.hpp"
+#include "vantage/robot/clear_paths.hpp"
 
 namespace vantage {
 namespace {
@@ -21,21 +21,21 @@ class FreeFlyerMobility : public Mobility {
   }
   [[nodiscard]] Move move(const RobotState& from, const View& to) const override {
     Move move;
-    const auto way = space_.way(from.view.position(), to.position());
-    if (!way) {
+    const auto path = space_.path(from.view.position(), to.position());
+    if (!path) {
       move.why_not = "no way there through known free space";
       return move;
     }
-    move.cost = length_of(*way);
+    move.cost = length_of(*path);
     const Eigen::Quaterniond start(from.view.world_from_sensor.linear());
     const Eigen::Quaterniond end(to.world_from_sensor.linear());
     double flown = 0;
-    for (std::size_t i = 0; i < way->size(); ++i) {
-      if (i > 0) flown += ((*way)[i] - (*way)[i - 1]).norm();
+    for (std::size_t i = 0; i < path->size(); ++i) {
+      if (i > 0) flown += ((*path)[i] - (*path)[i - 1]).norm();
       View view = i == 0 ? from.view : to;
-      if (i > 0 && i + 1 < way->size()) {
+      if (i > 0 && i + 1 < path->size()) {
         view.world_from_sensor.linear() = start.slerp(flown / move.cost, end).toRotationMatrix();
-        view.world_from_sensor.translation() = (*way)[i];
+        view.world_from_sensor.translation() = (*path)[i];
       }
       move.path.push_back({view});
     }
@@ -45,7 +45,7 @@ class FreeFlyerMobility : public Mobility {
  private:
   const VoxelMap& map_;
   ReachOptions reach_;
-  FreeSpace space_;
+  ClearPaths space_;
 };
 
 }  // namespace

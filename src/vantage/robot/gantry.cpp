@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
-#include "vantage/robot/free_space.hpp"
+#include "vantage/robot/clear_paths.hpp"
 #include "vantage/robot/reach.hpp"
 
 namespace vantage {
@@ -36,19 +36,19 @@ class GantryMobility : public Mobility {
   }
   [[nodiscard]] Move move(const RobotState& from, const View& to) const override {
     Move move;
-    const auto way = space_.way(from.view.position(), to.position());
-    if (!way) {
+    const auto path = space_.path(from.view.position(), to.position());
+    if (!path) {
       move.why_not = "no way there through known free space";
       return move;
     }
     const Eigen::VectorXd goal = gantry_joints(to);
-    const double length = length_of(*way);
+    const double length = length_of(*path);
     move.cost = gantry_.cost(length, from.joints, goal);
     double moved = 0;
-    for (std::size_t i = 0; i < way->size(); ++i) {
-      if (i > 0) moved += ((*way)[i] - (*way)[i - 1]).norm();
+    for (std::size_t i = 0; i < path->size(); ++i) {
+      if (i > 0) moved += ((*path)[i] - (*path)[i - 1]).norm();
       Eigen::VectorXd joints = from.joints + (length > 0 ? moved / length : 1.0) * (goal - from.joints);
-      joints.head<3>() = (*way)[i];
+      joints.head<3>() = (*path)[i];
       move.path.push_back({gantry_view(joints), joints});
     }
     move.path.back() = {to, goal};
@@ -59,7 +59,7 @@ class GantryMobility : public Mobility {
   const Gantry& gantry_;
   const VoxelMap& map_;
   ReachOptions reach_;
-  FreeSpace space_;
+  ClearPaths space_;
 };
 
 }  // namespace

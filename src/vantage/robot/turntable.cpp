@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
-#include "vantage/robot/free_space.hpp"
+#include "vantage/robot/clear_paths.hpp"
 #include "vantage/robot/reach.hpp"
 
 namespace vantage {
@@ -70,7 +70,7 @@ class TurntableMobility : public Mobility {
   const Turntable& table_;
   const VoxelMap& map_;
   ReachOptions reach_;
-  FreeSpace space_;
+  ClearPaths space_;
 };
 
 }  // namespace

@@ -40,13 +40,13 @@ std::string plate_form(const std::string& pose = "1 0 0 0\n0 -1 0 0\n0 0 -1 2\n0
 }
 
 /// A session of this folder and a client of its server.
-struct Served {
+struct ServedSession {
   LiveRun run;
   SessionService service;
   HttpServer server{{}};
   std::unique_ptr<httplib::Client> client;
 
-  explicit Served(const std::filesystem::path& folder) : service(folder, run) {
+  explicit ServedSession(const std::filesystem::path& folder) : service(folder, run) {
     add_page(server, run);
     service.add_routes(server);
     server.start();
@@ -73,7 +73,7 @@ struct SessionServiceTest : testing::Test {
 };
 
 TEST_F(SessionServiceTest, TakesScansAndSaysWhereToLook) {
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   EXPECT_EQ(s.status()["stored"], 0);
   EXPECT_EQ(s.next()["next"], nullptr);
   EXPECT_EQ(s.next()["explanation"], "there is no scan yet; add one");
@@ -94,20 +94,20 @@ TEST_F(SessionServiceTest, TakesScansAndSaysWhereToLook) {
 TEST_F(SessionServiceTest, AScanThatIsSentAgainWithItsKeyIsAnsweredAndNotStoredTwice) {
   const std::string form = part("key", "7") + plate_form();
   {
-    Served s(folder / "s");
+    ServedSession s(folder / "s");
     const auto first = s.add(form), again = s.add(form);
     EXPECT_EQ(first->status, 201);
     EXPECT_EQ(again->status, 201);
     EXPECT_EQ(first->body, again->body);
   }
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   EXPECT_EQ(Json::parse(s.add(form)->body)["number"], 0);
   EXPECT_EQ(Json::parse(s.add(plate_form())->body)["number"], 1);
   EXPECT_EQ(s.status()["stored"], 2);
 }
 
 TEST_F(SessionServiceTest, AViewIsTakenSkippedAndPlannedAgain) {
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   (void)s.add(plate_form());
   const Json ranking = s.next()["ranking"];
   const int best = ranking[0]["index"], second = ranking[1]["index"];
@@ -127,7 +127,7 @@ TEST_F(SessionServiceTest, AViewIsTakenSkippedAndPlannedAgain) {
 }
 
 TEST_F(SessionServiceTest, RefusesWhatIsNotAsDescribed) {
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   (void)s.add(plate_form());
   int cases = 0;
   for (const auto& [path, body, text] : {std::tuple{"/skip", "{\"candidate\": 20, \"reason\": \"x\"}", "0 .. 19"},
@@ -156,11 +156,11 @@ TEST_F(SessionServiceTest, RefusesWhatIsNotAsDescribed) {
 
 TEST_F(SessionServiceTest, SaysWhatWasDroppedWithoutNamingFoldersOfTheHost) {
   {
-    Served s(folder / "s");
+    ServedSession s(folder / "s");
     for (int i = 0; i < 2; ++i) (void)s.add(plate_form());
   }
   std::ofstream(folder / "s" / "session" / "000001.scan") << "damaged";
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   const Json status = s.status();
   EXPECT_EQ(status["stored"], 1);
   EXPECT_THAT(status["dropped"][0].get<std::string>(), HasSubstr("left out scan 1, kept as s/session/000001.damaged"));
@@ -171,7 +171,7 @@ TEST_F(SessionServiceTest, SaysWhatWasDroppedWithoutNamingFoldersOfTheHost) {
 }
 
 TEST_F(SessionServiceTest, FinishWritesTheFolderAndScansMayFollow) {
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   EXPECT_EQ(s.post("/finish", "{}")->status, 409);
   (void)s.add(plate_form());
   const auto finished = s.post("/finish", "{}");
@@ -186,7 +186,7 @@ TEST_F(SessionServiceTest, FinishWritesTheFolderAndScansMayFollow) {
 }
 
 TEST_F(SessionServiceTest, ThePageShowsThePlanOnTheLastScan) {
-  Served s(folder / "s");
+  ServedSession s(folder / "s");
   const Json before = Json::parse(*s.run.document());
   EXPECT_EQ(before["meta"]["state"], "waiting");
   EXPECT_THAT(before["scans"], testing::IsEmpty());

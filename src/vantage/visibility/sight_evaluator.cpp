@@ -25,7 +25,7 @@ SplatSights splat_sights_for(InstructionSet set) {
 }
 
 /// Memory that one thread uses for one view after the other.
-struct Scratch {
+struct SightScratch {
   Coverage ended, passed;
   BitPlane grazing, passable, facing;          // grazing voxels, these with the empty ones, PassableVoxels::collect()
   std::vector<std::uint32_t> inside, visible;  // packed voxels
@@ -34,11 +34,11 @@ struct Scratch {
 /// One view's way through the voxels.
 struct SightPass {
   PixelFrame frame;
-  Scratch& memory;
+  SightScratch& memory;
   BitLayout layout;
   BatchView batch;
 
-  SightPass(const PixelFrame& pixel_frame, Scratch& scratch, const BitLayout& bit_layout)
+  SightPass(const PixelFrame& pixel_frame, SightScratch& scratch, const BitLayout& bit_layout)
       : frame(pixel_frame), memory(scratch), layout(bit_layout) {
     batch = batch_view(frame, memory.ended);
     batch.context = this;
@@ -87,10 +87,10 @@ struct SightEvaluator::Prepared {
   SplatSights splat;
   SurfaceNormals normals;
   std::optional<PassableVoxels> voxels;  // where the map is small enough to pack them
-  mutable tbb::enumerable_thread_specific<Scratch> scratch;
+  mutable tbb::enumerable_thread_specific<SightScratch> scratch;
 
   /// Occupied voxels that this axis grazes.
-  void mark_grazing(Scratch& memory, const Vec3& axis) const {
+  void mark_grazing(SightScratch& memory, const Vec3& axis) const {
     BitPlane& grazing = memory.grazing;
     grazing.words.assign(map.layout().words(), 0);
     memory.passable.words = map.empty().words;
@@ -110,7 +110,7 @@ struct SightEvaluator::Prepared {
                                                              Resolution resolution) const {
     const PixelFrame frame(map.grid(), map.enclosure(), camera, view, resolution);
     if (!voxels || !frame.is_regular() || !begins_outside(frame)) return nullptr;
-    Scratch& memory = scratch.local();
+    SightScratch& memory = scratch.local();
     memory.ended.reset(resolution);
     memory.passed.reset(resolution);
     memory.visible.clear();

@@ -67,12 +67,12 @@ TEST(SightPastGrazing, LeavesOutWhatTheIncidenceLimitDoesNotLetTheSensorMeasure)
   EXPECT_EQ(column.see(), (Sight{{}, {{4, 0, 0}}}));
 }
 
-struct Family {
+struct SightFamily {
   MapKind map;
   Stand stand;
 };
 
-class RandomSights : public ::testing::TestWithParam<Family> {};
+class RandomSights : public ::testing::TestWithParam<SightFamily> {};
 
 TEST_P(RandomSights, TheEvaluatorSeesWhatExactRaysSee) {
   constexpr int scenes = 250;
@@ -105,8 +105,8 @@ TEST_P(RandomSights, TheEvaluatorSeesWhatExactRaysSee) {
   EXPECT_GT(with_a_pass, scenes / 20);
 }
 
-std::vector<Family> families() {
-  std::vector<Family> all;
+std::vector<SightFamily> families() {
+  std::vector<SightFamily> all;
   for (const MapKind kind : test::map_kinds) {
     for (const Stand stand : test::stands) all.push_back({kind, stand});
   }

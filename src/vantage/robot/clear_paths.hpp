@@ -10,17 +10,17 @@ namespace vantage {
 
 /// Where the centre of a ball can be and how it gets from one place to another without touching what is not known to
 /// be free.
-class FreeSpace {
+class ClearPaths {
  public:
   /// `radius` of the ball in metres; its centre stays inside `workspace`.
-  FreeSpace(const Surroundings& surroundings, double radius, const std::optional<Box3>& workspace);
+  ClearPaths(const Surroundings& surroundings, double radius, const std::optional<Box3>& workspace);
 
   /// Whether the ball keeps clear everywhere on the way. Clear is a twentieth of a voxel more than not touching: with
   /// it each step may be as long as there is room, and nothing between two steps is missed.
   [[nodiscard]] bool is_clear(const Vec3& from, const Vec3& to) const;
   /// Corner points of a short way between two places: straight where that is clear, else the shortest on a lattice,
   /// pulled tight. Nothing where the lattice knows no way.
-  [[nodiscard]] std::optional<std::vector<Vec3>> way(const Vec3& from, const Vec3& to) const;
+  [[nodiscard]] std::optional<std::vector<Vec3>> path(const Vec3& from, const Vec3& to) const;
   /// Room around the ball, metres; negative where it touches.
   [[nodiscard]] double room(const Vec3& center) const { return solids_.distance(center) - radius_; }
 

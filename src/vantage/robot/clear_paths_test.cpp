@@ -1,4 +1,4 @@
-#include "vantage/robot/free_space.hpp"
+#include "vantage/robot/clear_paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,23 +15,23 @@ VoxelMap tiny_unmarked_map() {
   return VoxelMap(scene);
 }
 
-TEST(FreeSpace, GoesStraightWhereNothingIsInTheWay) {
+TEST(ClearPaths, GoesStraightWhereNothingIsInTheWay) {
   const VoxelMap map = tiny_unmarked_map();
-  const FreeSpace space({map}, 0.1, std::nullopt);
-  const auto way = space.way(Vec3(-1, 0.2, 0), Vec3(1, 0.2, 0));
+  const ClearPaths space({map}, 0.1, std::nullopt);
+  const auto way = space.path(Vec3(-1, 0.2, 0), Vec3(1, 0.2, 0));
   ASSERT_TRUE(way);
   EXPECT_EQ(way->size(), 2U);
   EXPECT_EQ(length_of(*way), 2);
 }
 
-TEST(FreeSpace, GoesAroundAWallAsAStringWould) {
+TEST(ClearPaths, GoesAroundAWallAsAStringWould) {
   const VoxelMap map = tiny_unmarked_map();
   // A wall of 10 cm across the way, 1 m to the side where it ends first, and too high and deep to go over or under.
   const std::vector<Box3> wall{Box3(Vec3(-0.05, -9, -9), Vec3(0.05, 1, 9))};
   const double radius = 0.1;
-  const FreeSpace space({map, wall}, radius, std::nullopt);
+  const ClearPaths space({map, wall}, radius, std::nullopt);
   const Vec3 from(-1.5, 0, 0);
-  const auto way = space.way(from, Vec3(1.5, 0, 0));
+  const auto way = space.path(from, Vec3(1.5, 0, 0));
   ASSERT_TRUE(way);
   // A string around a cylinder of the ball's radius at each of the wall's two edges: tangent, arc, straight piece.
   const double to_edge = Vec3(1.45, 1, 0).norm();
@@ -42,7 +42,7 @@ TEST(FreeSpace, GoesAroundAWallAsAStringWould) {
   EXPECT_LT(length_of(*way), 1.03 * shortest);
 }
 
-TEST(FreeSpace, FindsNoWayOutOfAClosedRoomNorOutOfTheWorkspace) {
+TEST(ClearPaths, FindsNoWayOutOfAClosedRoomNorOutOfTheWorkspace) {
   const VoxelMap map = tiny_unmarked_map();
   std::vector<Box3> room;
   for (int axis = 0; axis < 3; ++axis) {
@@ -53,14 +53,14 @@ TEST(FreeSpace, FindsNoWayOutOfAClosedRoomNorOutOfTheWorkspace) {
       room.emplace_back(low, high);
     }
   }
-  EXPECT_FALSE(FreeSpace({map, room}, 0.05, std::nullopt).way(Vec3(0.5, 0, 0), Vec3(1.5, 0, 0)));
+  EXPECT_FALSE(ClearPaths({map, room}, 0.05, std::nullopt).path(Vec3(0.5, 0, 0), Vec3(1.5, 0, 0)));
   room.pop_back();
-  EXPECT_TRUE(FreeSpace({map, room}, 0.05, std::nullopt).way(Vec3(0.5, 0, 0), Vec3(1.5, 0, 0)));
+  EXPECT_TRUE(ClearPaths({map, room}, 0.05, std::nullopt).path(Vec3(0.5, 0, 0), Vec3(1.5, 0, 0)));
   const Box3 workspace(Vec3::Constant(-1.5), Vec3(1.5, 1.5, 0.9));  // the opening is above it
-  EXPECT_FALSE(FreeSpace({map, room}, 0.05, workspace).way(Vec3(0.5, 0, 0), Vec3(1.4, 0, 0)));
+  EXPECT_FALSE(ClearPaths({map, room}, 0.05, workspace).path(Vec3(0.5, 0, 0), Vec3(1.4, 0, 0)));
 }
 
-TEST(FreeSpace, WaysTouchNothingAndAreNoShorterThanTheStraightLine) {
+TEST(ClearPaths, WaysTouchNothingAndAreNoShorterThanTheStraightLine) {
   Random random(21);
   int direct = 0, around = 0, none = 0;
   std::int64_t places = 0;
@@ -70,11 +70,11 @@ TEST(FreeSpace, WaysTouchNothingAndAreNoShorterThanTheStraightLine) {
     const Box3 box = map.grid().box(map.enclosure());
     ReachOptions reach;
     reach.body_radius = random.uniform(0, 0.3) * box.sizes().maxCoeff();
-    const FreeSpace space({map}, reach.body_radius, std::nullopt);
+    const ClearPaths space({map}, reach.body_radius, std::nullopt);
     for (int i = 0; i < 6; ++i) {
       const Vec3 from = box.center() + box.diagonal().norm() * random.unit_vector();
       const Vec3 to = box.center() + random.uniform(0.2, 1) * box.diagonal().norm() * random.unit_vector();
-      const auto way = space.way(from, to);
+      const auto way = space.path(from, to);
       if (!way) {
         ++none;
         continue;

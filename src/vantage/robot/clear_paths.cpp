@@ -1,4 +1,4 @@
-#include "vantage/robot/free_space.hpp"
+#include "vantage/robot/clear_paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ std::vector<Box3> solids_of(const Surroundings& surroundings) {
 /// A lattice of places over a box, edges between the 26 neighbours, searched by A*.
 class Lattice {
  public:
-  Lattice(const FreeSpace& space, const Box3& region, double least_spacing) : space_(space) {
+  Lattice(const ClearPaths& space, const Box3& region, double least_spacing) : space_(space) {
     grid_.length = std::max(least_spacing, region.sizes().maxCoeff() / nodes_along_longest_side);
     grid_.min = region.min();
     grid_.size = (region.sizes() / grid_.length).array().floor().matrix().cast<int>() + Index3::Ones();
@@ -31,7 +31,7 @@ class Lattice {
     closed_.assign(nodes, false);
   }
 
-  [[nodiscard]] std::optional<std::vector<Vec3>> way(const Vec3& from, const Vec3& to) {
+  [[nodiscard]] std::optional<std::vector<Vec3>> path(const Vec3& from, const Vec3& to) {
     for (const std::size_t node : around(from)) {
       if (space_.is_clear(from, place(node))) reach(node, nowhere, (place(node) - from).norm(), to);
     }
@@ -116,7 +116,7 @@ class Lattice {
   }
 
   using Entry = std::pair<double, std::size_t>;  // least cost of a way through the node; ties by the lower node
-  const FreeSpace& space_;
+  const ClearPaths& space_;
   Grid grid_;
   std::vector<double> cost_;
   std::vector<std::size_t> came_from_;
@@ -126,13 +126,13 @@ class Lattice {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const Surroundings& surroundings, double radius, const std::optional<Box3>& workspace)
+ClearPaths::ClearPaths(const Surroundings& surroundings, double radius, const std::optional<Box3>& workspace)
     : solids_(solids_of(surroundings)),
       radius_(radius),
       least_room_(surroundings.map.grid().length / 20),
       workspace_(workspace) {}
 
-bool FreeSpace::is_clear(const Vec3& from, const Vec3& to) const {
+bool ClearPaths::is_clear(const Vec3& from, const Vec3& to) const {
   // The workspace is convex: a way between two places in it stays in it.
   if (workspace_ && !(workspace_->contains(from) && workspace_->contains(to))) return false;
   const double length = (to - from).norm();
@@ -146,7 +146,7 @@ bool FreeSpace::is_clear(const Vec3& from, const Vec3& to) const {
   }
 }
 
-std::optional<std::vector<Vec3>> FreeSpace::way(const Vec3& from, const Vec3& to) const {
+std::optional<std::vector<Vec3>> ClearPaths::path(const Vec3& from, const Vec3& to) const {
   if (is_clear(from, to)) return std::vector<Vec3>{from, to};
   if (!is_clear(from, from) || !is_clear(to, to)) return std::nullopt;
   Box3 region = solids_.bounds();
@@ -154,12 +154,12 @@ std::optional<std::vector<Vec3>> FreeSpace::way(const Vec3& from, const Vec3& to
   const Vec3 margin = Vec3::Constant(2 * radius_ + 0.1 * region.sizes().maxCoeff());
   region = Box3(region.min() - margin, region.max() + margin);
   if (workspace_) region = region.intersection(*workspace_);
-  auto way = Lattice(*this, region, 20 * least_room_).way(from, to);
+  auto way = Lattice(*this, region, 20 * least_room_).path(from, to);
   if (!way) return std::nullopt;
   return pulled_tight(*way);
 }
 
-std::vector<Vec3> FreeSpace::shortcut(const std::vector<Vec3>& way) const {
+std::vector<Vec3> ClearPaths::shortcut(const std::vector<Vec3>& way) const {
   std::vector<Vec3> corners{way.front()};
   for (std::size_t at = 0; at + 1 < way.size();) {
     std::size_t next = way.size() - 1;
@@ -170,7 +170,7 @@ std::vector<Vec3> FreeSpace::shortcut(const std::vector<Vec3>& way) const {
   return corners;
 }
 
-Vec3 FreeSpace::slid(const Vec3& before, const Vec3& corner, const Vec3& after) const {
+Vec3 ClearPaths::slid(const Vec3& before, const Vec3& corner, const Vec3& after) const {
   const Vec3 line = after - before;
   const double share = std::clamp((corner - before).dot(line) / std::max(line.squaredNorm(), 1e-300), 0.0, 1.0);
   const Vec3 ideal = before + share * line;
@@ -181,7 +181,7 @@ Vec3 FreeSpace::slid(const Vec3& before, const Vec3& corner, const Vec3& after) 
   return corner;
 }
 
-std::vector<Vec3> FreeSpace::pulled_tight(const std::vector<Vec3>& way) const {
+std::vector<Vec3> ClearPaths::pulled_tight(const std::vector<Vec3>& way) const {
   constexpr int halvings = 3;
   constexpr int rounds = 8;
   std::vector<Vec3> corners = shortcut(way);
