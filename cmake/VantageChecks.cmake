@@ -33,6 +33,8 @@ vantage_check(Consumer.FindsTheInstalledPackage ${consumer} -DBUILD=${PROJECT_BI
 if(VANTAGE_APPS)
   vantage_check(Consumer.FindsAllComponents ${consumer} -DBUILD=${PROJECT_BINARY_DIR} -DFULL=ON
                 -DWORK=${PROJECT_BINARY_DIR}/consumer/full ${check})
+  vantage_check(Consumer.KeepsASessionWithoutTheSimulation ${consumer} -DBUILD=${PROJECT_BINARY_DIR} -DSESSION=ON
+                -DWORK=${PROJECT_BINARY_DIR}/consumer/session ${check})
 endif()
 # Compiles the planner once more.
 vantage_check(Consumer.EmbedsTheSource ${consumer} -DSOURCE=${PROJECT_SOURCE_DIR}

@@ -12,6 +12,20 @@
 
 namespace vantage::app {
 
+/// What the help calls a value of this kind.
+inline const char* type_name(OptionField::Kind kind) {
+  switch (kind) {
+    case OptionField::Kind::number:
+      return "NUMBER";
+    case OptionField::Kind::list:
+      return "NUMBERS";
+    case OptionField::Kind::flag:
+    case OptionField::Kind::text:
+      break;
+  }
+  return "TEXT";
+}
+
 /// Adds the options as `--name VALUE`, flags as `--name` and `--no-name`, with defaults, units and meanings in the
 /// help, and `--config FILE` for all of them at once: what stands on the command line wins over the file. The options
 /// that the fields belong to must outlive the parsing; a bad value is an InputError that names the option. `also_known`
@@ -32,10 +46,10 @@ inline void add_options(CLI::App& command, const std::vector<OptionField>& field
           fmt::format("--{0},!--no-{0}", field.name),
           [field](std::int64_t count) { set_option(field, count > 0 ? "true" : "false", "--" + field.name); }, help);
     } else {
-      command
-          .add_option_function<std::string>(
-              "--" + field.name, [field](const std::string& text) { set_option(field, text, "--" + field.name); }, help)
-          ->default_str(field.text());
+      CLI::Option* option = command.add_option_function<std::string>(
+          "--" + field.name, [field](const std::string& text) { set_option(field, text, "--" + field.name); }, help);
+      option->type_name(type_name(field.kind));
+      if (field.text() != no_value) option->default_str(field.text());
     }
   }
 }

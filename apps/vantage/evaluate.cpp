@@ -88,7 +88,7 @@ void evaluate(EvaluateRequest& request) {
     print_json(map, evaluations);
   } else {
     print_labels(map);
-    print_views(evaluations, request.top);
+    print_views(evaluations, {request.top, request.program.verbose});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "help.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/options/options.hpp"
 
@@ -41,6 +42,11 @@ int run(int argc, char** argv) {
   vantage::app::add_objects(program);
   vantage::app::add_view(program);
   vantage::app::add_serve(program);
+  vantage::app::arrange_help(program);
+  if (argc < 2) {
+    std::cout << program.help() << "\nTry this first: vantage reconstruct mug\n";
+    return 0;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help and --version

@@ -82,7 +82,7 @@ void plan(PlanRequest& request) {
   if (request.program.json) {
     fmt::print("{}\n", ranked_views_json(next, planner.why_finished(), scans.model().scans, request.top).dump(2));
   } else {
-    print_plan(next, planner.why_finished(), request.top);
+    print_plan(next, planner.why_finished(), {request.top, request.program.verbose});
     if (folder) fmt::print("written to {}\n", folder->path().string());
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "vantage/runs/run_files.hpp"
 
@@ -13,9 +14,36 @@ std::string expectation_text(const Expectation& expected) {
   return fmt::format(" {:>8.5f} {:>7.0f} %", expected.utility, 100 * expected.registers);
 }
 
+/// The reason with "…" for each number in it.
+std::string kind_of(const std::string& reason) {
+  static const std::regex number(R"((^|[ (,])-?[0-9][0-9.e+-]*(,-?[0-9][0-9.e+-]*)*)");
+  return std::regex_replace(reason, number, "$1…");
+}
+
 }  // namespace
 
-void print_views(std::vector<Evaluation> evaluations, int top) {
+std::vector<std::string> infeasible_by_reason(const std::vector<Evaluation>& evaluations) {
+  struct Kind {
+    std::string text, first;  // of the kind, and of the first view that has it
+    int views = 0;
+  };
+  std::vector<Kind> kinds;
+  for (const Evaluation& each : evaluations) {
+    if (each.feasible) continue;
+    const std::string text = kind_of(each.reason);
+    const auto same = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.text == text; });
+    Kind& kind = same != kinds.end() ? *same : kinds.emplace_back(Kind{text, each.reason, 0});
+    ++kind.views;
+    if (each.reason != kind.first) kind.first = kind.text;
+  }
+  std::stable_sort(kinds.begin(), kinds.end(), [](const Kind& a, const Kind& b) { return a.views > b.views; });
+  std::vector<std::string> lines;
+  for (const Kind& kind : kinds)
+    lines.push_back(fmt::format("{} of {}: {}", kind.views, evaluations.size(), kind.first));
+  return lines;
+}
+
+void print_views(std::vector<Evaluation> evaluations, const PlanTableOptions& options) {
   rank(evaluations);
   const bool is_expected = std::any_of(evaluations.begin(), evaluations.end(),
                                        [](const Evaluation& each) { return each.expected.has_value(); });
@@ -24,16 +52,22 @@ void print_views(std::vector<Evaluation> evaluations, int top) {
   int printed = 0;
   for (const Evaluation& e : evaluations) {
     if (!e.feasible) continue;
-    if (++printed > top) break;
+    if (++printed > options.top) break;
     const Vec3 p = e.view.position();
     fmt::print("{:>5} {:>24} {:>6} {:>6} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.5f}{}\n", e.candidate,
                fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z()), e.seen.occupied, e.seen.occplane,
                e.seen.unmarked, e.factors.f_area, e.factors.f_navigation, e.factors.f_quality, e.factors.f_occlusion,
                e.utility, e.expected ? expectation_text(*e.expected) : "");
   }
-  for (const Evaluation& e : evaluations) {
-    if (!e.feasible) fmt::print("{:>5} not feasible: {}\n", e.candidate, e.reason);
+  if (options.verbose) {
+    for (const Evaluation& e : evaluations) {
+      if (!e.feasible) fmt::print("{:>5} not feasible: {}\n", e.candidate, e.reason);
+    }
+    return;
   }
+  const std::vector<std::string> infeasible = infeasible_by_reason(evaluations);
+  if (!infeasible.empty()) fmt::print("not feasible (--verbose lists each view):\n");
+  for (const std::string& line : infeasible) fmt::print("  {}\n", line);
 }
 
 void print_record(std::FILE* out, const ScanRecord& record) {
@@ -57,7 +91,7 @@ void print_move(const Move& move) {
   }
 }
 
-void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, int top) {
+void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, const PlanTableOptions& options) {
   if (!plan) {
     fmt::print("nothing left to plan: {}\n", why_finished);
     return;
@@ -70,7 +104,7 @@ void print_plan(const std::optional<Plan>& plan, const std::string& why_finished
   fmt::print("\n");
   std::vector<Evaluation> all = plan->ranking;
   all.insert(all.end(), plan->infeasible.begin(), plan->infeasible.end());
-  print_views(all, top);
+  print_views(all, options);
 }
 
 }  // namespace vantage::app

@@ -3,14 +3,25 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vantage/model/scan_record.hpp"
 #include "vantage/planning/planner.hpp"
 
 namespace vantage::app {
 
-/// The `top` best views as a table with their factors, then the candidates that fell out with the reason.
-void print_views(std::vector<Evaluation> evaluations, int top);
+/// How much of a ranking is printed.
+struct PlanTableOptions {
+  int top = 10;          // views in the table, best first
+  bool verbose = false;  // a line for each infeasible view, instead of their numbers by reason
+};
+
+/// The best views as a table with their factors, then the infeasible ones summed up by reason.
+void print_views(std::vector<Evaluation> evaluations, const PlanTableOptions& options);
+
+/// How many of the views are infeasible for each kind of reason, most frequent first: "42 of 80: outside the
+/// workspace". Reasons that differ only in their numbers are one kind, whose numbers are printed as "…".
+[[nodiscard]] std::vector<std::string> infeasible_by_reason(const std::vector<Evaluation>& evaluations);
 
 /// One line on how a real scan was registered and what it brought.
 void print_record(std::FILE* out, const ScanRecord& record);
@@ -19,6 +30,6 @@ void print_record(std::FILE* out, const ScanRecord& record);
 void print_move(const Move& move);
 
 /// The next best view with its reason and the views ranked after it, or why there is none.
-void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, int top);
+void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, const PlanTableOptions& options);
 
 }  // namespace vantage::app

@@ -9,6 +9,7 @@ void add_program_options(CLI::App& command, ProgramOptions& options) {
       ->capture_default_str();
   command.add_flag("--json", options.json, "print the result as JSON on standard output");
   command.add_flag("--quiet", options.quiet, "print no progress");
+  command.add_flag("--verbose", options.verbose, "list every infeasible view, not their numbers by reason");
 }
 
 std::unique_ptr<tbb::global_control> limit_threads(int threads) {

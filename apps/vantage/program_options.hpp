@@ -9,9 +9,10 @@ namespace vantage::app {
 
 /// Options that say how a command runs, not what it computes.
 struct ProgramOptions {
-  int threads = 0;     // 0: as many as there are processors
-  bool json = false;   // the result as JSON on standard output
-  bool quiet = false;  // no progress
+  int threads = 0;       // 0: as many as there are processors
+  bool json = false;     // the result as JSON on standard output
+  bool quiet = false;    // no progress
+  bool verbose = false;  // a line for every infeasible view
 };
 
 void add_program_options(CLI::App& command, ProgramOptions& options);

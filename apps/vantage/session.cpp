@@ -94,7 +94,7 @@ void next(SessionRequest& request) {
   if (request.program.json) {
     fmt::print("{}\n", ranked_views_json(plan.plan, plan.why_finished, plan.state->scans, request.top).dump(2));
   } else {
-    print_plan(plan.plan, plan.why_finished, request.top);
+    print_plan(plan.plan, plan.why_finished, {request.top, request.program.verbose});
   }
 }
 

@@ -1,6 +1,6 @@
 # Builds the consumer in WORK against the installed or the embedded planner, runs it and looks at what it links.
-# -DWORK=folder -DCONSUMER=source -DCXX=compiler and either -DBUILD=build tree to install from (with -DFULL=ON: all of
-# its components) or -DSOURCE=project.
+# -DWORK=folder -DCONSUMER=source -DCXX=compiler and either -DBUILD=build tree to install from (with -DFULL=ON: also
+# a simulation; with -DSESSION=ON: also a session, whose program must link neither Embree nor MPI) or -DSOURCE=project.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
@@ -16,7 +16,7 @@ if(BUILD)
   if(headers)
     message(FATAL_ERROR "installed among the headers: ${headers}")
   endif()
-  set(how -DCMAKE_PREFIX_PATH=${WORK}/prefix -DVANTAGE_FULL=${FULL})
+  set(how -DCMAKE_PREFIX_PATH=${WORK}/prefix -DVANTAGE_FULL=${FULL} -DVANTAGE_SESSION=${SESSION})
 else()
   set(how -DVANTAGE_SOURCE=${SOURCE})
 endif()
@@ -24,15 +24,28 @@ run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${WORK}/build -DCMAKE_BUILD_TYPE
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 
-execute_process(COMMAND readelf --dynamic ${WORK}/build/consumer OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*" needed "${dynamic}")
-list(TRANSFORM needed REPLACE ".*\\[(.*)\\].*" "\\1")
-message("links ${needed}")
-if(NOT needed)
-  message(FATAL_ERROR "readelf names no library")
-endif()
+# libraries_of(PROGRAM RESULT): what the program's dynamic section names.
+function(libraries_of program result)
+  execute_process(COMMAND readelf --dynamic ${program} OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*" needed "${dynamic}")
+  list(TRANSFORM needed REPLACE ".*\\[(.*)\\].*" "\\1")
+  message("${program} links ${needed}")
+  if(NOT needed)
+    message(FATAL_ERROR "readelf names no library of ${program}")
+  endif()
+  set(${result} "${needed}" PARENT_SCOPE)
+endfunction()
+
+libraries_of(${WORK}/build/consumer needed)
 # Eigen is headers only; the rest belongs to the compiler.
 list(FILTER needed EXCLUDE REGEX "^(libtbb\\.so|libstdc\\+\\+\\.so|libgcc_s\\.so|libm\\.so|libc\\.so|ld-linux)")
 if(needed)
   message(FATAL_ERROR "vantage::core needs Eigen and oneTBB only, but the consumer links ${needed}")
+endif()
+if(SESSION)
+  libraries_of(${WORK}/build/session needed)
+  list(FILTER needed INCLUDE REGEX "embree|libmpi|libopen-rte|liboctomap")
+  if(needed)
+    message(FATAL_ERROR "a robot's session links ${needed}")
+  endif()
 endif()
