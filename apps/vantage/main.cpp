@@ -1,10 +1,16 @@
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "help.hpp"
+#include "manual.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/files/atomic_file.hpp"
 #include "vantage/options/options.hpp"
 
 namespace {
@@ -22,6 +28,26 @@ std::string unknown_command(const CLI::App& program, int argc, char** argv) {
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
   const std::string nearest = vantage::nearest_name(argv[1], names);
   return vantage::concat("'", argv[1], "' is no command", nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+}
+
+/// Writes man pages and completions for the packages; not a command that people need, so no help mentions it.
+void add_manual(CLI::App& program) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = program.add_subcommand("write-manual", "Write man pages and shell completions into a folder");
+  command->group("");
+  command->add_option("folder", *folder, "where to write")->required();
+  command->callback([folder, &program] {
+    const std::filesystem::path to = *folder;
+    std::filesystem::create_directories(to);
+    vantage::write_file_atomically(to / "vantage.1", vantage::app::man_page(program, VANTAGE_VERSION));
+    for (const CLI::App* each :
+         program.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) {
+      vantage::write_file_atomically(to / ("vantage-" + each->get_name() + ".1"),
+                                     vantage::app::man_page(*each, VANTAGE_VERSION));
+    }
+    vantage::write_file_atomically(to / "vantage.bash", vantage::app::bash_completion(program));
+    vantage::write_file_atomically(to / "_vantage", vantage::app::zsh_completion(program));
+  });
 }
 
 int run(int argc, char** argv) {
@@ -42,6 +68,7 @@ int run(int argc, char** argv) {
   vantage::app::add_objects(program);
   vantage::app::add_view(program);
   vantage::app::add_serve(program);
+  add_manual(program);
   vantage::app::arrange_help(program);
   if (argc < 2) {
     std::cout << program.help() << "\nTry this first: vantage reconstruct mug\n";
