@@ -57,7 +57,8 @@ class Program:
             words = command.split() if command else []
             parent = self.help(" ".join(words[:-1]) or None) if words else None
             known = not words or (parent and re.search(rf"^\s+{re.escape(words[-1])}\s", parent, re.MULTILINE))
-            self.help_texts[command] = self.output(*words, "--help-all") if known else None
+            texts = [self.output(*words, option) for option in ("--help", "--help-all")] if known else [None]
+            self.help_texts[command] = None if None in texts else "\n".join(texts)
         return self.help_texts[command]
 
     def why_wrong(self, command, options):

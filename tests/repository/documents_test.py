@@ -14,6 +14,9 @@ class FakeProgram(documents.Program):
         super().__init__(path=None)
 
     def output(self, *arguments):
+        # `--help` lists commands and the options that most people use, `--help-all` all options.
+        if arguments[-1:] == ("--help-all",):
+            arguments = (*arguments[:-1], "--help")
         return {("--help",): "  --version\n  plan  says where to look\n  session  goes on\n",
                 ("plan", "--help"): "  --top N  how many", ("session", "--help"): "  add  takes a scan\n",
                 ("session", "add", "--help"): "  --candidate N  the view",

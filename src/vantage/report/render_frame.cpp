@@ -13,7 +13,7 @@ Vec3f facing_normal(const PictureScene::Disc& disc, const Vec3f& eye) {
 
 }  // namespace
 
-Frame::Frame(const PictureScene& scene, const Screen& screen, int samples_per_pixel)
+RenderFrame::RenderFrame(const PictureScene& scene, const Screen& screen, int samples_per_pixel)
     : scene_(&scene),
       screen_(&screen),
       first_disc_(scene.facets.size()),
@@ -47,7 +47,7 @@ Frame::Frame(const PictureScene& scene, const Screen& screen, int samples_per_pi
   }
 }
 
-void Frame::add_stroke(std::size_t index, float samples_per_pixel) {
+void RenderFrame::add_stroke(std::size_t index, float samples_per_pixel) {
   const PictureScene::Stroke& stroke = scene_->strokes[index];
   Vec3 from = screen_->in_camera(stroke.from), to = screen_->in_camera(stroke.to);
   if (from.z() > to.z()) std::swap(from, to);
@@ -67,7 +67,7 @@ void Frame::add_stroke(std::size_t index, float samples_per_pixel) {
   faces_.push_back({{a0, b1, b0}, id});
 }
 
-Frame::Band Frame::draw(int width, int top, int bottom) const {
+RenderFrame::Band RenderFrame::draw(int width, int top, int bottom) const {
   Band band(width, top, bottom);
   for (const Face& face : faces_)
     raster::fill(face.corners, band.window(), [&](int x, int y, float nearness) { band.put(x, y, nearness, face.id); });
@@ -82,7 +82,7 @@ Frame::Band Frame::draw(int width, int top, int bottom) const {
   return band;
 }
 
-void Frame::draw_disc(Band& band, const Circle& circle) const {
+void RenderFrame::draw_disc(Band& band, const Circle& circle) const {
   const PictureScene::Disc& disc = scene_->discs[circle.id - first_disc_];
   const Vec3f eye = screen_->eye(), normal = facing_normal(disc, eye);
   const float height = normal.dot(disc.center - eye);
@@ -94,7 +94,7 @@ void Frame::draw_disc(Band& band, const Circle& circle) const {
   });
 }
 
-Frame::Hit Frame::hit(const Band& band, int x, int y) const {
+RenderFrame::Hit RenderFrame::hit(const Band& band, int x, int y) const {
   const Band::Slot& slot = band.slots_[band.place(x, y)];
   if (slot.id < first_disc_) return {Kind::facet, slot.id, slot.nearness};
   if (slot.id < first_stroke_) return {Kind::disc, slot.id - first_disc_, slot.nearness};

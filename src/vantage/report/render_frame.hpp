@@ -7,7 +7,7 @@
 namespace vantage {
 
 /// The primitives of a scene on a screen, and which of them is nearest at each sample of a band of rows.
-class Frame {
+class RenderFrame {
  public:
   enum class Kind { facet, disc, stroke, dot };
   /// What a sample shows: primitive `index` of its kind in the scene.
@@ -32,7 +32,7 @@ class Frame {
     }
 
    private:
-    friend class Frame;
+    friend class RenderFrame;
     static constexpr std::uint32_t nothing = ~std::uint32_t{0};
     struct Slot {
       float nearness = 0;
@@ -46,7 +46,7 @@ class Frame {
   };
 
   /// `samples_per_pixel` turns the widths of strokes and dots into samples. Scene and screen must outlive the frame.
-  Frame(const PictureScene& scene, const Screen& screen, int samples_per_pixel);
+  RenderFrame(const PictureScene& scene, const Screen& screen, int samples_per_pixel);
   [[nodiscard]] Band draw(int width, int top, int bottom) const;
   /// False where the sample shows nothing.
   [[nodiscard]] bool shows(const Band& band, int x, int y) const {

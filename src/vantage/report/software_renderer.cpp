@@ -140,11 +140,11 @@ class Shader {
     std::array<Entry, 4> entries;
     std::size_t used = 0;
   };
-  [[nodiscard]] Vec3f color(const Frame::Hit& hit, float x, float y, PixelLight& known) const {
-    if (hit.kind == Frame::Kind::stroke) return hazy(stroke_colors_[hit.index], 1 / hit.nearness);
-    if (hit.kind == Frame::Kind::dot) return hazy(dot_colors_[hit.index], 1 / hit.nearness);
+  [[nodiscard]] Vec3f color(const RenderFrame::Hit& hit, float x, float y, PixelLight& known) const {
+    if (hit.kind == RenderFrame::Kind::stroke) return hazy(stroke_colors_[hit.index], 1 / hit.nearness);
+    if (hit.kind == RenderFrame::Kind::dot) return hazy(dot_colors_[hit.index], 1 / hit.nearness);
     const Vec3f ray = screen_->ray(x, y), point = screen_->eye() + ray / hit.nearness;
-    if (hit.kind == Frame::Kind::disc) {
+    if (hit.kind == RenderFrame::Kind::disc) {
       const PictureScene::Disc& disc = scene_->discs[hit.index];
       const Vec3f normal = disc.normal.isZero() ? Vec3f(-ray.normalized()) : disc.normal;
       return lit(disc_colors_[hit.index], {facing(normal, ray), {}, hit.nearness, false}, point, known);
@@ -274,7 +274,7 @@ Picture render(const PictureScene& scene, const SkyLight& sky, const PictureCame
   options.validate();
   const int samples = options.samples_per_side;
   const Screen screen(camera, options.width * samples, options.height * samples);
-  const Frame frame(scene, screen, samples);
+  const RenderFrame frame(scene, screen, samples);
   const Vec3f background = linear_light(options.background);
   const Shader shader(scene, sky, screen, camera.up, background);
   std::optional<Floor> floor;
@@ -286,7 +286,7 @@ Picture render(const PictureScene& scene, const SkyLight& sky, const PictureCame
   const int bands = (options.height + band_rows - 1) / band_rows;
   parallel_for(static_cast<std::size_t>(bands), [&](std::size_t number) {
     const int top = static_cast<int>(number) * band_rows, bottom = std::min(options.height, top + band_rows);
-    const Frame::Band band = frame.draw(options.width * samples, top * samples, bottom * samples);
+    const RenderFrame::Band band = frame.draw(options.width * samples, top * samples, bottom * samples);
     const auto pixel_color = [&](int column, int row) {
       Vec3f sum = Vec3f::Zero();
       Shader::PixelLight known;
