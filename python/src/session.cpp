@@ -7,6 +7,7 @@
 #include "options.hpp"
 #include "vantage/options/robot_file.hpp"
 #include "vantage/recordings/scan_folder.hpp"
+#include "vantage/report/static_report.hpp"
 
 namespace vantage::python {
 namespace {
