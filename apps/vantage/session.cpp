@@ -11,6 +11,7 @@
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/options/robot_file.hpp"
 #include "vantage/runs/ranked_views.hpp"
 #include "vantage/session/session_json.hpp"
@@ -35,9 +36,9 @@ struct SessionRequest {
 using Shared = std::shared_ptr<SessionRequest>;
 
 void tell_dropped(const SessionStatus& status) {
-  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", each);
+  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", printable(each));
   for (const auto& [number, reason] : status.left_out)
-    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, reason);
+    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, printable(reason));
 }
 
 void create(SessionRequest& request) {
@@ -110,7 +111,8 @@ void status(SessionRequest& request) {
              status.state->scans.empty() ? 0 : status.state->scans.back().distance);
   for (const Label label : all_labels) fmt::print(" {} {} ", status.state->map.count(label), name(label));
   fmt::print(" mean quality {:.3f}\n", status.state->map.mean_quality());
-  for (const auto& [candidate, reason] : status.skipped) fmt::print("view {} is skipped: {}\n", candidate, reason);
+  for (const auto& [candidate, reason] : status.skipped)
+    fmt::print("view {} is skipped: {}\n", candidate, printable(reason));
 }
 
 void finish(SessionRequest& request) {

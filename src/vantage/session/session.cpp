@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/runs/run_folder.hpp"
 
 namespace vantage {
@@ -179,6 +180,7 @@ SessionPlan Session::next() {
 
 void Session::skip(int candidate, const std::string& reason) {
   require(!reason.empty(), "reason: must say why candidate ", candidate, " is skipped");
+  require_plain_text(reason, "reason");
   change_skipped(candidate, reason);
 }
 
