@@ -10,7 +10,15 @@
 
 namespace vantage {
 
+namespace {
+
+constexpr std::size_t most_yaml_bytes = std::size_t{256} << 10U;
+
+}  // namespace
+
 YAML::Node parse_yaml(std::string_view bytes, const std::string& name) {
+  require(bytes.size() <= most_yaml_bytes, name, ": has ", bytes.size(), " bytes; YAML must have at most ",
+          most_yaml_bytes);
   try {
     return YAML::Load(std::string(bytes));
   } catch (const YAML::Exception& error) {

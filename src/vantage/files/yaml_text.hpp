@@ -7,7 +7,8 @@
 
 namespace vantage {
 
-/// Parses one YAML document; throws InputError with `name` and the line where it is not well formed.
+/// Parses one YAML document; throws InputError with `name` and the line where it is not well formed. The parser takes
+/// some hundred bytes of memory for each byte of its input, so that must have at most 256 KiB.
 [[nodiscard]] YAML::Node parse_yaml(std::string_view bytes, const std::string& name);
 
 /// "NAME, line N" of a node, for errors.

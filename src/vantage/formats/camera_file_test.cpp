@@ -199,5 +199,12 @@ TEST(CameraFile, DamagedFilesAreReadOrRefused) {
   damage(open3d, parse_intrinsics_json);
 }
 
+TEST(CameraFile, LongYamlIsRefusedBeforeItIsParsed) {
+  std::string bytes = "a: [";
+  while (bytes.size() < 300000) bytes += "x,";
+  EXPECT_THAT(input_error_of([&] { (void)parse_intrinsics_yaml(bytes + "]", "a.yaml"); }),
+              testing::HasSubstr("a.yaml: has 300001 bytes; YAML must have at most 262144"));
+}
+
 }  // namespace
 }  // namespace vantage

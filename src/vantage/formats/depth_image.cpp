@@ -111,11 +111,13 @@ RangeImage masked(RangeImage image, const Mask& mask) {
   return image;
 }
 
-DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>& raw, const std::string& name) {
-  if (is_png(bytes)) return decode_png16(bytes, name);
-  if (is_exr(bytes)) return decode_exr(bytes, name);
+DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>& raw, const std::string& name,
+                         std::int64_t most_pixels) {
+  if (is_png(bytes)) return decode_png16(bytes, name, most_pixels);
+  if (is_exr(bytes)) return decode_exr(bytes, name, most_pixels);
   require(raw.has_value(), name,
           ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
+  require_pixels(*raw, most_pixels, name);
   return decode_raw(bytes, *raw, name);
 }
 

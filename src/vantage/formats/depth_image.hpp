@@ -41,9 +41,10 @@ inline constexpr DepthEncoding own_depth_encoding{.metres_per_unit = 0.001, .no_
 using DepthPixels = std::variant<Gray16, FloatImage>;
 
 /// A depth image from memory: PNG (16 bit) or OpenEXR by their first bytes, else float32, little endian, row by row, of
-/// the resolution `raw`. Throws InputError with `name` where it is damaged, of another kind, or of another size.
+/// the resolution `raw`. Throws InputError with `name` where it is damaged, of another kind, of another size,
+/// or has more than `most_pixels`.
 [[nodiscard]] DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>& raw,
-                                       const std::string& name);
+                                       const std::string& name, std::int64_t most_pixels = any_pixels);
 
 /// The pixels of a depth image by the ending of its name: `.png` (16 bit, see DepthEncoding), `.exr`, or `.raw`
 /// (float32, little endian, row by row). Throws InputError naming the file where it is damaged, of another kind, or not

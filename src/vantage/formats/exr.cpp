@@ -23,6 +23,7 @@ constexpr std::uint32_t magic = 20000630;
 constexpr std::int64_t longest_side = 16384;
 constexpr std::uint64_t best_ratio = 1100;  // deflate packs at most 1032 bytes into one
 constexpr std::size_t most_channels = 64;
+constexpr std::size_t most_bytes_per_pixel = 64;
 
 enum class PixelType { unsigned_integer, half, single };
 
@@ -223,7 +224,7 @@ bool is_exr(std::string_view bytes) {
   return first == magic;
 }
 
-FloatImage decode_exr(std::string_view bytes, const std::string& name) {
+FloatImage decode_exr(std::string_view bytes, const std::string& name, std::int64_t most_pixels) {
   require(is_exr(bytes), name, ": is not an OpenEXR file");
   ByteReader reader(bytes.substr(sizeof(magic)), name);
   const auto version = reader.take<std::uint32_t>();
@@ -232,6 +233,7 @@ FloatImage decode_exr(std::string_view bytes, const std::string& name) {
   const ExrHeader header = read_exr_header(reader, name);
   FloatImage image;
   image.resolution = resolution_of(header, name);
+  require_pixels(image.resolution, most_pixels, name);
   const std::size_t chosen = depth_channel(header.channels, name);
   const auto columns = static_cast<std::size_t>(image.resolution.columns);
   const auto rows = static_cast<std::size_t>(image.resolution.rows);
@@ -242,6 +244,9 @@ FloatImage decode_exr(std::string_view bytes, const std::string& name) {
   }
   require(row_bytes * rows <= best_ratio * bytes.size(), name, ": ", columns, "x", rows,
           " pixels are announced, which ", bytes.size(), " bytes cannot hold; the file is cut off");
+  require(row_bytes * rows / most_bytes_per_pixel <= static_cast<std::uint64_t>(most_pixels), name,
+          ": its channels have ", row_bytes * rows, " bytes; must have at most ", most_bytes_per_pixel, " for each of ",
+          most_pixels, " pixels");
   image.values.resize(columns * rows);
   const std::size_t lines = header.compression == zip ? 16 : 1;
   const std::size_t chunks = (rows + lines - 1) / lines;

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/sensor/range_camera.hpp"
+#include "vantage/formats/png16.hpp"
 
 namespace vantage {
 
@@ -19,8 +19,9 @@ struct FloatImage {
 
 /// One channel of an OpenEXR image: the only one, or else `Z` or `Y` (also as the last word of a layer's name). Scan
 /// lines without compression, RLE, ZIPS or ZIP; pixels of 16 or 32 bits. Throws InputError with `name` where the bytes
-/// are something else, damaged, cut off, or larger than 16384 pixels on a side. Memory stays in proportion to the
-/// input, whatever the header promises.
-[[nodiscard]] FloatImage decode_exr(std::string_view bytes, const std::string& name);
+/// are something else, damaged, cut off, larger than 16384 pixels on a side, or have more than `most_pixels` (or
+/// channels of 64 bytes for each of them), which is asked before memory is taken.
+[[nodiscard]] FloatImage decode_exr(std::string_view bytes, const std::string& name,
+                                    std::int64_t most_pixels = any_pixels);
 
 }  // namespace vantage

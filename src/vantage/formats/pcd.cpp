@@ -242,9 +242,13 @@ const std::vector<double>* Pcd::find(std::string_view field) const {
   return found == fields.end() ? nullptr : &found->values;
 }
 
-Pcd parse_pcd(std::string_view bytes, const std::string& name) {
+Pcd parse_pcd(std::string_view bytes, const std::string& name, std::size_t most_values) {
   TextReader text(bytes, name);
   const PcdHeader header = read_pcd_header(text);
+  // A field may hold several numbers, of which one byte each is unpacked.
+  require(header.count() <= most_values / std::max(header.record_bytes() / sizeof(double), header.fields.size()), name,
+          ": has ", header.count(), " points of ", header.fields.size(), " fields and ", header.record_bytes(),
+          " bytes; must have at most ", most_values, " values");
   Pcd pcd;
   pcd.size = {static_cast<int>(header.width), static_cast<int>(header.height)};
   pcd.viewpoint = header.viewpoint;

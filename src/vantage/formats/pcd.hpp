@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,9 @@ struct Pcd {
 };
 
 /// DATA ascii, binary or binary_compressed. Throws InputError with `name` and the place. Memory stays within a small
-/// multiple of the data, whatever the header promises.
-[[nodiscard]] Pcd parse_pcd(std::string_view bytes, const std::string& name);
+/// multiple of the data, whatever the header promises; compressed data may be 88 times as long, but must not have more
+/// than `most_values`.
+[[nodiscard]] Pcd parse_pcd(std::string_view bytes, const std::string& name,
+                            std::size_t most_values = std::numeric_limits<std::size_t>::max());
 
 }  // namespace vantage

@@ -323,10 +323,15 @@ const PlyElement* Ply::find(std::string_view element) const {
   return found == elements.end() ? nullptr : &*found;
 }
 
-Ply parse_ply(std::string_view bytes, const std::string& name) {
+Ply parse_ply(std::string_view bytes, const std::string& name, std::size_t most_values) {
   if (bytes.empty()) throw InputError(name + ": is empty");
   TextReader text(bytes, name);
   PlyHeader header = read_ply_header(text);
+  for (const PlyElement& element : header.content.elements) {
+    require(element.rows <= most_values / std::max(element.columns.size(), std::size_t{1}), name, ": has ",
+            element.rows, " rows of ", element.columns.size(), " properties in '", element.name,
+            "'; must have at most ", most_values, " values");
+  }
   if (header.encoding == Encoding::ascii) {
     read_elements(AsciiSource(text), header, name);
   } else {

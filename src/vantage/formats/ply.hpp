@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,8 @@ struct Ply {
 
 /// Throws InputError naming `name`, the line or row, and what is wrong with it. Memory stays within a small multiple of
 /// the input, whatever its header promises.
-[[nodiscard]] Ply parse_ply(std::string_view bytes, const std::string& name);
+[[nodiscard]] Ply parse_ply(std::string_view bytes, const std::string& name,
+                            std::size_t most_values = std::numeric_limits<std::size_t>::max());
 
 /// A scalar property that must be there, as `name` and element in the error's text.
 [[nodiscard]] const PlyColumn& scalar_column(const PlyElement& element, std::string_view column,

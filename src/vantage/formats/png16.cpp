@@ -55,6 +55,8 @@ bool succeeds(Codec& codec, void (*step)(Codec&)) {
 void read_header(Codec& codec) {
   png_set_read_fn(codec.png, &codec, on_read);
   png_set_user_limits(codec.png, longest_side, longest_side);
+  // Texts and colour profiles say nothing about depth, and a thousand of them unpack to 8 MB each.
+  png_set_keep_unknown_chunks(codec.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(codec.png, codec.info);
 }
 
@@ -155,9 +157,15 @@ bool is_png(std::string_view bytes) {
   return count > 0 && png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, count) == 0;
 }
 
-Gray16 decode_png16(std::string_view bytes, const std::string& name) {
+void require_pixels(Resolution resolution, std::int64_t most_pixels, const std::string& name) {
+  require(resolution.rays() <= most_pixels, name, ": has ", resolution.columns, "x", resolution.rows,
+          " pixels; must have at most ", most_pixels);
+}
+
+Gray16 decode_png16(std::string_view bytes, const std::string& name, std::int64_t most_pixels) {
   Reader reader;
   open(reader, bytes, name);
+  require_pixels(reader.image.resolution, most_pixels, name);
   const int bit_depth = png_get_bit_depth(reader.png, reader.info);
   const int color_type = png_get_color_type(reader.png, reader.info);
   if (bit_depth != 16 || color_type != PNG_COLOR_TYPE_GRAY) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,16 @@ struct Gray16 {
 /// Whether the bytes begin as a PNG file does.
 [[nodiscard]] bool is_png(std::string_view bytes);
 
+/// For images that may be as large as their format allows.
+inline constexpr std::int64_t any_pixels = std::numeric_limits<std::int64_t>::max();
+
 /// Throws InputError with `name` where the bytes are no PNG, damaged or cut off, of another colour type or bit depth,
-/// or larger than 16384 pixels on a side. Memory stays in proportion to the input, whatever the header promises.
-[[nodiscard]] Gray16 decode_png16(std::string_view bytes, const std::string& name);
+/// larger than 16384 pixels on a side, or have more than `most_pixels`, which is asked before memory is taken for them.
+/// A file may unpack to a thousand times its size.
+[[nodiscard]] Gray16 decode_png16(std::string_view bytes, const std::string& name,
+                                  std::int64_t most_pixels = any_pixels);
+/// Throws InputError where an image has more pixels than that.
+void require_pixels(Resolution resolution, std::int64_t most_pixels, const std::string& name);
 
 /// Which pixels of an image count: 0 or 1 per pixel, row by row.
 using Mask = std::vector<std::uint8_t>;

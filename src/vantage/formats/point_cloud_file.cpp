@@ -85,8 +85,8 @@ void read_range_grid(const Ply& ply, const PlyElement& cells, const std::vector<
   }
 }
 
-CloudFile parse_ply_cloud(std::string_view bytes, const std::string& name) {
-  const Ply ply = parse_ply(bytes, name);
+CloudFile parse_ply_cloud(std::string_view bytes, const std::string& name, std::size_t most_values) {
+  const Ply ply = parse_ply(bytes, name, most_values);
   const PlyElement* vertices = ply.find("vertex");
   require(vertices != nullptr && vertices->rows > 0, name, ": has no points");
   const auto column = [&](std::string_view property) {
@@ -103,8 +103,8 @@ CloudFile parse_ply_cloud(std::string_view bytes, const std::string& name) {
   return result;
 }
 
-CloudFile parse_pcd_cloud(std::string_view bytes, const std::string& name) {
-  const Pcd pcd = parse_pcd(bytes, name);
+CloudFile parse_pcd_cloud(std::string_view bytes, const std::string& name, std::size_t most_values) {
+  const Pcd pcd = parse_pcd(bytes, name, most_values);
   Columns columns{{pcd.find("x"), pcd.find("y"), pcd.find("z")},
                   {pcd.find("normal_x"), pcd.find("normal_y"), pcd.find("normal_z")}};
   require(columns.point[0] != nullptr && columns.point[1] != nullptr && columns.point[2] != nullptr, name,
@@ -119,7 +119,8 @@ CloudFile parse_pcd_cloud(std::string_view bytes, const std::string& name) {
   return result;
 }
 
-CloudFile parse_text_cloud(std::string_view bytes, bool with_normals, const std::string& name) {
+CloudFile parse_text_cloud(std::string_view bytes, bool with_normals, const std::string& name,
+                           std::size_t most_values) {
   TextReader text(bytes, name);
   CloudFile result;
   while (text.next_line_with_words()) {
@@ -131,6 +132,7 @@ CloudFile parse_text_cloud(std::string_view bytes, bool with_normals, const std:
       for (double& coordinate : normal) coordinate = text.number("a coordinate of the normal");
     }
     if (point.allFinite()) result.cloud.add(point, unit_or_zero(normal));
+    require(result.cloud.size() <= most_values / 3, name, ": has more than ", most_values / 3, " points");
   }
   return result;
 }
@@ -147,19 +149,19 @@ CloudFormat cloud_format(const std::filesystem::path& path) {
   throw InputError(fmt::format("{}: a point cloud must be a .ply, .pcd, .xyz or .xyzn file", path.string()));
 }
 
-CloudFile parse_cloud(std::string_view bytes, CloudFormat format, const std::string& name) {
+CloudFile parse_cloud(std::string_view bytes, CloudFormat format, const std::string& name, std::size_t most_values) {
   if (bytes.empty()) throw InputError(name + ": is empty");
   CloudFile result;
   switch (format) {
     case CloudFormat::ply:
-      result = parse_ply_cloud(bytes, name);
+      result = parse_ply_cloud(bytes, name, most_values);
       break;
     case CloudFormat::pcd:
-      result = parse_pcd_cloud(bytes, name);
+      result = parse_pcd_cloud(bytes, name, most_values);
       break;
     case CloudFormat::xyz:
     case CloudFormat::xyzn:
-      result = parse_text_cloud(bytes, format == CloudFormat::xyzn, name);
+      result = parse_text_cloud(bytes, format == CloudFormat::xyzn, name, most_values);
       break;
   }
   require(result.cloud.size() > 0, name, ": has no point with finite coordinates");
