@@ -53,17 +53,15 @@ vantage_library(experiments experiments)
 target_link_libraries(vantage_experiments PUBLIC vantage_simulation vantage_report PRIVATE fmt::fmt)
 vantage_unity(vantage_experiments)
 
-# The web server. Debian's cpp-httplib has no CMake file; its pkg-config file says with which definitions it was compiled,
-# and the sizes of its classes depend on them.
-find_path(VANTAGE_HTTPLIB_INCLUDE httplib.h REQUIRED)
-add_library(vantage_httplib INTERFACE)
-target_compile_definitions(vantage_httplib INTERFACE
-  CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT CPPHTTPLIB_BROTLI_SUPPORT)
-target_include_directories(vantage_httplib SYSTEM INTERFACE ${VANTAGE_HTTPLIB_INCLUDE})
-target_link_libraries(vantage_httplib INTERFACE cpp-httplib)
+# The web server. Boost's headers are not needed by those who use the installed library.
+find_package(Boost 1.74 REQUIRED)
 vantage_library(server server)
 target_link_libraries(vantage_server PUBLIC vantage_session vantage_report
-  PRIVATE fmt::fmt $<BUILD_INTERFACE:vantage_httplib> $<INSTALL_INTERFACE:cpp-httplib>)
+  PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers>)
+# g++ 12 pairs the operators new and delete of Asio's coroutine frames wrongly, and warns of it.
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/vantage/server/http_connections.cpp
+  ${PROJECT_SOURCE_DIR}/src/vantage/server/http_workers.cpp
+  PROPERTIES COMPILE_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-mismatched-new-delete> SKIP_UNITY_BUILD_INCLUSION ON)
 vantage_unity(vantage_server)
 
 find_package(CLI11 REQUIRED)

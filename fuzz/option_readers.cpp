@@ -33,11 +33,13 @@ void read_upload(std::string_view bytes) {
   reading.unit = "mm";
   reading.hand_eye = "0,0,50,0,0,0,1";
   reading.crop = Eigen::Matrix<double, 6, 1>{{0, 0, 1, 2, 2, 2}};
-  (void)parse_scan_upload(bytes, upload_options(reading));
+  (void)parse_scan_upload(bytes, "B", upload_options(reading));
 }
 
 void read_json_body(std::string_view bytes) {
-  const nlohmann::json body = body_object({{}, "application/json", std::string(bytes)}, {"candidate", "reason"});
+  HttpRequest request;
+  request.body = std::string(bytes);
+  const nlohmann::json body = body_object(request, {"candidate", "reason"});
   (void)body_candidate(body, 80);
   (void)body_text(body, "reason");
 }
@@ -49,7 +51,7 @@ const std::vector<Reader>& option_readers() {
       {"options", "options", read_options},
       {"scan_options", "options", read_scan_options},
       {"robot", "robot", read_robot},
-      {"multipart", "http", [](std::string_view bytes) { (void)parse_multipart(bytes); }},
+      {"multipart", "http", [](std::string_view bytes) { (void)parse_multipart(bytes, "B"); }},
       {"scan_upload", "http", read_upload},
       {"json_body", "http", read_json_body},
   };

@@ -33,13 +33,21 @@ void add_page_server_options(CLI::App& command, PageServerOptions& options) {
       ->envname("VANTAGE_TOKEN");
 }
 
-std::unique_ptr<HttpServer> page_server(const PageServerOptions& options, LiveRun& run) {
+HttpServerOptions http_options(const PageServerOptions& options) {
+  // Where a script's variable with the token is not set, the page would be open to everybody.
+  require(!options.token || !options.token->empty(), "token: is empty; must have ", shortest_token,
+          " or more letters and digits, or not be given");
   HttpServerOptions http;
   http.host = options.host;
   http.port = options.port;
-  http.token = options.token;
-  if (http.token.empty() && !is_loopback(http.host)) http.token = random_name();
-  auto server = std::make_unique<HttpServer>(std::move(http));
+  http.token = options.token.value_or("");
+  if (http.token.empty() && is_address(http.host) && !is_loopback(http.host)) http.token = random_name();
+  http.validate();
+  return http;
+}
+
+std::unique_ptr<HttpServer> page_server(const PageServerOptions& options, LiveRun& run) {
+  auto server = std::make_unique<HttpServer>(http_options(options));
   add_page(*server, run);
   return server;
 }

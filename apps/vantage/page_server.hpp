@@ -13,7 +13,7 @@ namespace vantage::app {
 struct PageServerOptions {
   int port = 8350;  // 0: any free one
   std::string host = "127.0.0.1";
-  std::string token;
+  std::optional<std::string> token;
 };
 
 /// Throws InputError, which names `option`, where the text is no port.
@@ -22,8 +22,11 @@ struct PageServerOptions {
 /// `--host` and `--token`; the port belongs to the command.
 void add_page_server_options(CLI::App& command, PageServerOptions& options);
 
-/// A server with the page for `run`, not started yet, so that routes can be added. A host that other machines reach
-/// gets a token where none is given.
+/// What they mean. A host that other machines reach gets a token where none is given. Throws InputError naming the
+/// option.
+[[nodiscard]] HttpServerOptions http_options(const PageServerOptions& options);
+
+/// A server with the page for `run`, not started yet, so that routes can be added.
 [[nodiscard]] std::unique_ptr<HttpServer> page_server(const PageServerOptions& options, LiveRun& run);
 /// Starts it and prints on standard error where to look.
 void start_and_tell(HttpServer& server);

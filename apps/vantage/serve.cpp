@@ -7,6 +7,7 @@
 #include "interrupt.hpp"
 #include "page_server.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/server/admission.hpp"
 #include "vantage/server/folder_watch.hpp"
 #include "vantage/server/session_service.hpp"
@@ -20,15 +21,15 @@ struct ServeRequest {
 };
 
 void serve_session(const ServeRequest& request) {
-  require(!request.server.token.empty() || is_loopback(request.server.host),
+  require(request.server.token.has_value() || is_loopback(request.server.host),
           "token: must be given where --bind = ", request.server.host,
           " lets other machines in: 16 or more letters and digits, in --token or the environment's VANTAGE_TOKEN");
   LiveRun run;
   SessionService service(request.folder, run);
   const SessionStatus status = service.session().status();
-  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", each);
+  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", printable(each));
   for (const auto& [number, reason] : status.left_out)
-    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, reason);
+    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, printable(reason));
   const std::unique_ptr<HttpServer> server = page_server(request.server, run);
   service.add_routes(*server);
   catch_interrupts();
@@ -38,6 +39,7 @@ void serve_session(const ServeRequest& request) {
 }
 
 void serve(const ServeRequest& request) {
+  (void)http_options(request.server);  // what is wrong with them is said before anything is opened
   if (SessionFolder::is_session(request.folder)) {
     serve_session(request);
     return;

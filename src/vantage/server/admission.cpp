@@ -10,6 +10,8 @@
 namespace vantage {
 namespace {
 
+constexpr std::size_t longest_host_name = 253;  // of DNS
+
 /// The name in a Host header, without port and brackets.
 std::string host_name(const std::string& header) {
   if (header.starts_with('[')) return header.substr(1, header.find(']') - 1);
@@ -43,6 +45,18 @@ bool same_secret(std::string_view given, std::string_view secret) {
     difference |= static_cast<unsigned char>(given[i] ^ other);
   }
   return difference == 0;
+}
+
+bool is_address(const std::string& host) {
+  in_addr v4{};
+  in6_addr v6{};
+  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return true;
+  if (inet_pton(AF_INET6, host.substr(0, host.find('%')).c_str(), &v6) == 1) return true;
+  const auto in_names = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '.'; };
+  if (host.empty() || host.size() > longest_host_name || !std::all_of(host.begin(), host.end(), in_names)) return false;
+  // A name that ends in a number would be taken for an address.
+  const std::string last = lower(host.substr(host.find_last_of('.') + 1));
+  return !last.empty() && !last.starts_with("0x") && last.find_first_not_of("0123456789") != std::string::npos;
 }
 
 bool is_loopback(const std::string& host) {

@@ -33,6 +33,13 @@ struct Refusal {
 /// Whether the texts are the same, in a time that depends on the length of `given` alone.
 [[nodiscard]] bool same_secret(std::string_view given, std::string_view secret);
 
+/// Of tokens, characters.
+inline constexpr std::size_t shortest_token = 16;
+
+/// Whether the text is an IPv4 or IPv6 address as it is written in full, or may be the name of a machine. Short forms
+/// of numbers like 0 or 127.1 are neither.
+[[nodiscard]] bool is_address(const std::string& host);
+
 /// Whether only programs of this machine reach `host`.
 [[nodiscard]] bool is_loopback(const std::string& host);
 

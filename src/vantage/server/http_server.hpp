@@ -9,11 +9,13 @@
 
 namespace vantage {
 
+class HttpConnections;
 class LiveRun;
 
 struct HttpRequest {
   std::map<std::string, std::string> query;
   std::string content_type;  // without parameters, lower case
+  std::string boundary;      // its parameter of this name
   std::string body;
 };
 
@@ -43,16 +45,19 @@ struct HttpRoute {
   std::function<HttpAnswer(const HttpRequest&)> handle = {};
   std::string body_type = "application/json";     // of a POST; browsers send it across sites only where they may
   std::size_t max_body = std::size_t{64} * 1024;  // bytes
-  int at_once = 0;                                // POSTs under way at a time, others get 503; 0: no limit
+  int at_once = 0;                                // requests under way at a time, others get 503; 0: no limit
 };
 
 struct HttpServerOptions {
   std::string host = "127.0.0.1";  // address to listen at
   int port = 0;                    // 0: any free one
   std::string token = {};          // who knows it may come in; empty: everybody, on a loopback address only
-  int max_connections = 64;        // at a time; half of them may listen to events
-  int timeout = 5;                 // seconds that a browser may keep a connection waiting
-  int body_time = 60;              // seconds that the body of a request may take
+  int max_connections = 256;       // at a time; who has not asked for anything yet makes room for who comes
+  int max_listeners = 32;          // to events, at a time
+  int max_workers = 64;            // threads that answer requests
+  std::size_t max_body_bytes = std::size_t{512} << 20U;  // of all requests that are read or answered, in sum
+  int timeout = 5;     // seconds that the head of a request may take, and every 64 KiB after it in either direction
+  int body_time = 60;  // seconds that the body of a request may take
 
   /// Throws InputError naming the field.
   void validate() const;
@@ -60,7 +65,8 @@ struct HttpServerOptions {
 
 /// HTTP for the page and for robots: answers only what was added, so no file of the machine can be asked for, and only
 /// to those who are let in (admission.hpp). With a token every request needs it: in the query (`?token=`, which leaves
-/// a cookie behind), as cookie, or as bearer. Every error is {"error": text}.
+/// a cookie behind), as cookie, or as bearer. Every error is {"error": text}. What a request may cost before it is let
+/// in is limited (http_connections.hpp); the header Range is not heeded, every answer is whole.
 class HttpServer {
  public:
   explicit HttpServer(HttpServerOptions options);
@@ -73,9 +79,9 @@ class HttpServer {
   /// Server-sent events of `run`, which must outlive the server; stop() closes it. Before start().
   void add_events(const std::string& path, LiveRun& run);
 
-  /// Listens in threads of its own. Throws Error where the address cannot be had.
+  /// Listens in threads of its own. Throws Error where the address or a thread cannot be had.
   void start();
-  /// Ends all connections and threads; at most `timeout` seconds.
+  /// Ends all connections and threads: whatever clients do within `timeout` seconds, or when the last handler returns.
   void stop();
 
   [[nodiscard]] int port() const;
@@ -83,8 +89,9 @@ class HttpServer {
   [[nodiscard]] std::string url() const;
 
  private:
-  struct Connections;
-  std::unique_ptr<Connections> connections_;
+  struct Routes;
+  std::unique_ptr<Routes> routes_;
+  std::unique_ptr<HttpConnections> connections_;
 };
 
 /// Adds the page at `/`, `GET /api/run` and `GET /api/events` (docs/report-data.md, "Live").

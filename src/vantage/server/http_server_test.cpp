@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -30,6 +31,7 @@ struct Served {
   std::atomic<bool> entered = false, holds = false;  // /api/one
 
   explicit Served(HttpServerOptions options = {}) : server(std::move(options)) {
+    std::signal(SIGPIPE, SIG_IGN);  // the client writes to connections that the server has closed
     add_page(server, run);
     const auto echo = [](const HttpRequest& request) { return said(request.body); };
     server.add({.method = HttpRoute::Method::post, .path = "/api/echo", .handle = echo, .max_body = 1000});
@@ -139,7 +141,7 @@ TEST(HttpServer, AListenerThatNeverReadsHoldsNobodyUp) {
 }
 
 TEST(HttpServer, LimitsTheNumberOfListeners) {
-  Served s(HttpServerOptions{.max_connections = 4});
+  Served s(HttpServerOptions{.max_listeners = 2});
   s.run.begin(empty_run());
   std::atomic<int> greeted = 0;
   std::atomic<bool> end = false;
@@ -293,7 +295,12 @@ TEST(HttpServer, OptionsAreChecked) {
   EXPECT_THROW(HttpServerOptions({.port = 70000}).validate(), InputError);
   EXPECT_THROW(HttpServerOptions({.host = "0.0.0.0"}).validate(), InputError);
   EXPECT_THROW(HttpServerOptions({.host = "0.0.0.0", .token = "short"}).validate(), InputError);
+  EXPECT_THROW(HttpServerOptions({.token = "short"}).validate(), InputError);
   EXPECT_THROW(HttpServerOptions({.token = token + "; Path=/"}).validate(), InputError);
+  for (const char* host : {"", "0", "127.1", "0x7f.1", "1.2.3.4.5", "a b", "localhost:80", "http://localhost"})
+    EXPECT_THROW(HttpServerOptions({.host = host, .token = token}).validate(), InputError) << host;
+  for (const char* host : {"127.0.0.1", "::1", "localhost", "robot-7.lab.example", "fe80::1%eth0", "7up"})
+    EXPECT_NO_THROW(HttpServerOptions({.host = host, .token = token}).validate()) << host;
   EXPECT_NO_THROW(HttpServerOptions({.host = "0.0.0.0", .token = token}).validate());
   HttpServer server({});
   EXPECT_THROW(server.add({.path = "/a", .body_type = "text/plain"}), InputError);

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/formats/png16.hpp"
 #include "vantage/formats/pose_file.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
@@ -14,10 +15,18 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t longest_name = 200;
+constexpr std::size_t longest_pose = std::size_t{4} * 1024;
+constexpr std::size_t longest_intrinsics = std::size_t{16} * 1024;
 
 const FormPart* find(const std::vector<FormPart>& parts, std::string_view name) {
   const auto found = std::find_if(parts.begin(), parts.end(), [&](const FormPart& part) { return part.name == name; });
   return found == parts.end() ? nullptr : &*found;
+}
+
+/// Before anybody parses it.
+void require_short(const FormPart& part, std::size_t longest) {
+  require(part.body.size() <= longest, "field '", part.name, "': has ", part.body.size(), " bytes; must have at most ",
+          longest);
 }
 
 bool is_json(std::string_view text) {
@@ -25,13 +34,16 @@ bool is_json(std::string_view text) {
   return first != std::string_view::npos && text[first] == '{';
 }
 
-Intrinsics intrinsics_of(std::string_view text) {
+Intrinsics intrinsics_of(const FormPart& part) {
+  require_short(part, longest_intrinsics);
+  const std::string_view text = part.body;
   if (is_json(text)) return parse_intrinsics_json(text, "intrinsics");
   if (text.find(':') != std::string_view::npos) return parse_intrinsics_yaml(text, "intrinsics");
   return parse_intrinsics_text(text, "intrinsics");
 }
 
 int whole_number(std::string_view text, const std::string& what) {
+  require(text.size() <= longest_name, what, ": must be a whole number");
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   require(error == std::errc() && end == text.data() + text.size(), what, ": must be a whole number");
@@ -48,6 +60,7 @@ void require_known(const std::vector<FormPart>& parts) {
 
 /// The pose in a field, of the hand where there is one, as one of the sensor.
 Pose pose_of(const FormPart& part, const UploadOptions& upload) {
+  require_short(part, longest_pose);
   const Pose hand = is_json(part.body) ? parse_pose_json(part.body, part.name) : parse_pose_text(part.body, part.name);
   return sensor_pose(hand, upload.hand_eye, upload.reading);
 }
@@ -56,8 +69,8 @@ Pose pose_of(const FormPart& part, const UploadOptions& upload) {
 std::string text_of(const std::vector<FormPart>& parts, std::string_view field) {
   const FormPart* part = find(parts, field);
   if (part == nullptr) return {};
-  require(part->body.size() <= longest_name, "field '", field, "': has ", part->body.size(),
-          " bytes; must have at most ", longest_name);
+  require_short(*part, longest_name);
+  require_plain_text(part->body, concat("field '", field, "'"));
   return std::string(part->body);
 }
 
@@ -65,8 +78,8 @@ Scan depth_scan(const FormPart& depth, const std::vector<FormPart>& parts, const
   const FormPart *intrinsics = find(parts, "intrinsics"), *mask = find(parts, "mask");
   require(intrinsics != nullptr || upload.intrinsics,
           "the field 'intrinsics' is missing: 3x3 numbers, ROS camera_info or Open3D");
-  const Intrinsics used = intrinsics != nullptr ? intrinsics_of(intrinsics->body) : *upload.intrinsics;
-  const DepthPixels pixels = decode_depth(depth.body, used.resolution, "depth");
+  const Intrinsics used = intrinsics != nullptr ? intrinsics_of(*intrinsics) : *upload.intrinsics;
+  const DepthPixels pixels = decode_depth(depth.body, used.resolution, "depth", upload.most_pixels);
   const Resolution size = std::visit([](const auto& image) { return image.resolution; }, pixels);
   std::optional<Mask> counts;
   if (mask != nullptr) counts = decode_png_mask(mask->body, size, "mask");
@@ -82,9 +95,9 @@ UploadOptions upload_options(const ScanFolderOptions& reading) {
   return options;
 }
 
-SessionScan parse_scan_upload(std::string_view body, const UploadOptions& upload) {
+SessionScan parse_scan_upload(std::string_view body, std::string_view boundary, const UploadOptions& upload) {
   const ScanFolderOptions& options = upload.reading;
-  const std::vector<FormPart> parts = parse_multipart(body);
+  const std::vector<FormPart> parts = parse_multipart(body, boundary);
   require_known(parts);
   const FormPart *depth = find(parts, "depth"), *cloud = find(parts, "cloud"), *pose = find(parts, "pose");
   require((depth == nullptr) != (cloud == nullptr), "a scan must have either the field 'depth' or the field 'cloud'");
@@ -95,7 +108,7 @@ SessionScan parse_scan_upload(std::string_view body, const UploadOptions& upload
   if (depth != nullptr) {
     scan.scan = depth_scan(*depth, parts, upload);
   } else {
-    const CloudFile file = parse_cloud(cloud->body, cloud_format(cloud->file_name), "cloud");
+    const CloudFile file = parse_cloud(cloud->body, cloud_format(cloud->file_name), "cloud", upload.most_values);
     if (options.cloud_frame == "sensor") {
       Pose cloud_from_sensor = file.cloud_from_sensor;
       cloud_from_sensor.translation() *= options.metres_per_unit();

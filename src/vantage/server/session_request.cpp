@@ -4,6 +4,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/json_text.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/runs/run_files.hpp"
 
 namespace vantage {
@@ -67,6 +68,7 @@ int body_candidate(const nlohmann::json& body, int views) {
 std::string body_text(const nlohmann::json& body, const std::string& key) {
   require(body.contains(key) && body[key].is_string() && !body[key].get<std::string>().empty(), key,
           ": must be text that is not empty");
+  require_plain_text(body[key].get<std::string>(), key);
   return body[key].get<std::string>();
 }
 

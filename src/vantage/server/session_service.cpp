@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
@@ -9,6 +10,7 @@
 #include "vantage/report/static_report.hpp"
 #include "vantage/runs/ranked_views.hpp"
 #include "vantage/server/session_request.hpp"
+#include "vantage/server/without_folders.hpp"
 #include "vantage/session/session_json.hpp"
 
 namespace vantage {
@@ -18,6 +20,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t longest_scan = std::size_t{64} << 20U;  // bytes
 constexpr int most_uploads = 16;                              // at a time
+constexpr int most_plans = 16;                                // requests for one, at a time
+constexpr int most_downloads = 4;                             // of a file, at a time
+constexpr std::int64_t most_times_larger = 4;                 // a frame may be than those of the session
 constexpr std::size_t most_waiting = 32;                      // scans that are stored and not merged
 constexpr int default_top = 10;
 
@@ -46,8 +51,14 @@ SessionService::SessionService(const std::filesystem::path& folder, LiveRun& run
     : page_(SessionFolder::options_of(folder), name_of(folder), run) {
   session_ = std::make_unique<Session>(folder, [this](const SessionModel& model) { was_merged(model); });
   upload_ = upload_options(session_->options().reading);
-  integrator_ = std::thread([this] { integrate_stored(); });
-  planner_ = std::thread([this] { plan_for_page(); });
+  try {
+    integrator_ = std::thread([this] { integrate_stored(); });
+    planner_ = std::thread([this] { plan_for_page(); });
+  } catch (const std::system_error& error) {
+    stop();
+    throw Error(concat("cannot start the threads of the session (", error.what(),
+                       "): the limit of processes (ulimit -u, or the container's) is reached"));
+  }
 }
 
 SessionService::~SessionService() { stop(); }
@@ -63,7 +74,13 @@ void SessionService::stop() {
 }
 
 void SessionService::was_merged(const SessionModel& model) {
-  page_.add_scan(model);
+  try {
+    page_.add_scan(model);
+  } catch (const std::exception& error) {
+    // What the page does changes nothing of the model.
+    const std::lock_guard lock(mutex_);
+    page_fault_ = concat("the page does not show all scans: ", error.what());
+  }
   const std::lock_guard lock(mutex_);
   taken_.reset();
   wants_plan_ = true;
@@ -112,10 +129,7 @@ void SessionService::plan_for_page() {
 }
 
 std::string SessionService::without_paths(std::string text) const {
-  const std::string path = session_->folder().string(), name = name_of(session_->folder());
-  for (std::size_t at = 0; !path.empty() && (at = text.find(path, at)) != std::string::npos; at += name.size())
-    text.replace(at, path.size(), name);
-  return text;
+  return without_folders(std::move(text), session_->folder());
 }
 
 std::function<HttpAnswer(const HttpRequest&)> SessionService::handler(Handler handle) {
@@ -134,6 +148,10 @@ std::function<HttpAnswer(const HttpRequest&)> SessionService::handler(Handler ha
 
 Json SessionService::status_now() {
   SessionStatus status = session_->status();
+  {
+    const std::lock_guard lock(mutex_);
+    if (!page_fault_.empty()) status.warnings.push_back(page_fault_);
+  }
   for (std::string& text : status.dropped) text = without_paths(text);
   for (std::string& text : status.warnings) text = without_paths(text);
   for (auto& [number, text] : status.left_out) text = without_paths(text);
@@ -168,13 +186,23 @@ int SessionService::store(SessionScan scan) {
   }
 }
 
+int SessionService::store_upload(const HttpRequest& request, const SessionState& state) {
+  UploadOptions upload = upload_;
+  const auto& camera = state.camera;
+  if (camera)
+    upload.most_pixels = std::min(upload.most_pixels, most_times_larger * std::int64_t{camera->resolution.rays()});
+  // One at a time, so that what is unpacked at a time is limited too.
+  const std::lock_guard lock(unpacking_);
+  return store(parse_scan_upload(request.body, request.boundary, upload));
+}
+
 HttpAnswer SessionService::add_scan(const HttpRequest& request) {
   require_query(request, {"wait"});
   const bool waits = query_is_yes(request, "wait");
   const SessionStatus status = session_->status();
   if (status.stored >= status.integrated + status.left_out.size() + most_waiting)
     throw HttpError(503, concat(most_waiting, " scans wait to be merged; try again later"));
-  const int number = store(parse_scan_upload(request.body, upload_));
+  const int number = store_upload(request, *status.state);
   {
     std::unique_lock lock(mutex_);
     if (number > merged_up_to_) to_merge_.push_back(number);  // else it was sent again
@@ -242,8 +270,8 @@ HttpAnswer SessionService::finish(const HttpRequest& request) {
 
 void SessionService::add_routes(HttpServer& server) {
   using Method = HttpRoute::Method;
-  const auto on = [&](Method method, const std::string& path, Handler handle) {
-    server.add({.method = method, .path = path, .handle = handler(handle)});
+  const auto on = [&](Method method, const std::string& path, Handler handle, int at_once = 0) {
+    server.add({.method = method, .path = path, .handle = handler(handle), .at_once = at_once});
   };
   server.add({.method = Method::post,
               .path = "/api/session/scans",
@@ -252,15 +280,15 @@ void SessionService::add_routes(HttpServer& server) {
               .max_body = longest_scan,
               .at_once = most_uploads});
   on(Method::get, "/api/session", &SessionService::status);
-  on(Method::get, "/api/session/next", &SessionService::next);
-  on(Method::post, "/api/session/next", &SessionService::take);
+  on(Method::get, "/api/session/next", &SessionService::next, most_plans);
+  on(Method::post, "/api/session/next", &SessionService::take, most_plans);
   on(Method::post, "/api/session/skip", &SessionService::skip);
   on(Method::post, "/api/session/unskip", &SessionService::unskip);
-  on(Method::post, "/api/session/finish", &SessionService::finish);
-  on(Method::get, "/api/session/map.nrrd", &SessionService::map_labels);
-  on(Method::get, "/api/session/map.ply", &SessionService::map_surface);
-  on(Method::get, "/api/session/model.ply", &SessionService::model);
-  on(Method::get, "/api/session/mesh.ply", &SessionService::mesh);
+  on(Method::post, "/api/session/finish", &SessionService::finish, 1);
+  on(Method::get, "/api/session/map.nrrd", &SessionService::map_labels, most_downloads);
+  on(Method::get, "/api/session/map.ply", &SessionService::map_surface, most_downloads);
+  on(Method::get, "/api/session/model.ply", &SessionService::model, most_downloads);
+  on(Method::get, "/api/session/mesh.ply", &SessionService::mesh, most_downloads);
 }
 
 }  // namespace vantage

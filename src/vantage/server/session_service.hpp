@@ -46,6 +46,7 @@ class SessionService {
   [[nodiscard]] std::function<HttpAnswer(const HttpRequest&)> handler(Handler handle);
   [[nodiscard]] std::string without_paths(std::string text) const;
   [[nodiscard]] nlohmann::ordered_json status_now();
+  [[nodiscard]] int store_upload(const HttpRequest& request, const SessionState& state);
   [[nodiscard]] int store(SessionScan scan);
   void was_merged(const SessionModel& model);
   void want_plan();
@@ -55,6 +56,8 @@ class SessionService {
   SessionPage page_;
   std::unique_ptr<Session> session_;
   UploadOptions upload_;
+
+  std::mutex unpacking_;
 
   std::mutex mesh_mutex_;
   std::shared_ptr<const SessionState> meshed_;  // what mesh_ is of
@@ -66,6 +69,7 @@ class SessionService {
   int merged_up_to_ = -1;
   bool wants_plan_ = false;
   std::optional<Evaluation> taken_;  // the view that somebody goes to
+  std::string page_fault_;           // why the page lacks something, if it does
   bool ends_ = false;
   std::thread integrator_, planner_;
 };

@@ -201,5 +201,31 @@ TEST_F(SessionServiceTest, ThePageShowsThePlanOnTheLastScan) {
   EXPECT_EQ(document["candidates"]["poses"]["shape"], Json::array({20, 7}));
 }
 
+TEST_F(SessionServiceTest, AFrameMuchLargerThanThoseOfTheSessionIsRefused) {
+  ServedSession s(folder / "s");
+  ASSERT_EQ(s.add(plate_form())->status, 201);
+  const Gray16 larger{{81, 80}, std::vector<std::uint16_t>(6480, 1000)};
+  const std::string form = part("depth", encode_png16(larger)) + part("pose", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n") +
+                           part("intrinsics", "50 0 40\n0 50 40\n0 0 1\n") + "--B--\r\n";
+  const auto refused = s.add(form);
+  EXPECT_EQ(refused->status, 400);
+  EXPECT_THAT(error_in(refused), HasSubstr("depth: has 81x80 pixels; must have at most 6400"));
+}
+
+TEST_F(SessionServiceTest, NoAnswerNamesAFolderOfTheMachine) {
+  ScanPlanningOptions options = small_options();
+  std::ofstream(folder / "camera.txt") << "50 0 19.5\n0 50 19.5\n0 0 1\n";
+  options.reading.intrinsics = (folder / "camera.txt").string();
+  Session::create(folder / "other", options);
+  ServedSession s(folder / "other");
+  (void)s.add(plate_form());
+  std::filesystem::create_directory(folder / "other" / "map.nrrd");
+  const auto failed = s.post("/finish", "{}");
+  EXPECT_EQ(failed->status, 500);
+  for (const std::string& text : {failed->body, s.get("")->body, *s.run.document()})
+    EXPECT_THAT(text, testing::Not(HasSubstr(folder.path().string())));
+  EXPECT_THAT(*s.run.document(), HasSubstr("camera.txt"));
+}
+
 }  // namespace
 }  // namespace vantage
