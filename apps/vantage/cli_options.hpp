@@ -48,6 +48,7 @@ inline void add_options(CLI::App& command, const std::vector<OptionField>& field
     } else {
       CLI::Option* option = command.add_option_function<std::string>(
           "--" + field.name, [field](const std::string& text) { set_option(field, text, "--" + field.name); }, help);
+      if (field.name == "package") option->join(';');  // once for each package
       option->type_name(type_name(field.kind));
       if (field.text() != no_value) option->default_str(field.text());
     }

@@ -29,7 +29,8 @@ class ArmMobility : public Mobility {
   }
 
   [[nodiscard]] std::optional<std::string> why_unreachable(const View& view) const override {
-    const std::vector<Eigen::VectorXd>& solutions = arm_.inverse(view);
+    const auto remembered = arm_.inverse(view);
+    const std::vector<Eigen::VectorXd>& solutions = *remembered;
     if (solutions.empty()) return "no joints within their limits bring the sensor there";
     std::optional<std::string> reason;
     for (const Eigen::VectorXd& joints : solutions) {
@@ -81,7 +82,8 @@ class ArmMobility : public Mobility {
   /// The joints that hold the sensor at a view without touching anything, the nearest first.
   [[nodiscard]] std::vector<Eigen::VectorXd> goals_by_distance(const Eigen::VectorXd& from, const View& to) const {
     std::vector<Eigen::VectorXd> goals;
-    for (const Eigen::VectorXd& joints : arm_.inverse(to)) {
+    const auto solutions = arm_.inverse(to);
+    for (const Eigen::VectorXd& joints : *solutions) {
       if (!collision_.why_touching(joints)) goals.push_back(arm_.kinematics().nearest_turns(joints, from));
     }
     std::stable_sort(goals.begin(), goals.end(), [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -103,6 +105,25 @@ class ArmMobility : public Mobility {
   JointSpace space_;
 };
 
+/// The arm whose links of these names may touch each other.
+ArmDescription allowing(ArmDescription arm, const std::vector<std::pair<std::string, std::string>>& may_touch) {
+  const auto body = [&](const std::string& link) {
+    const auto found =
+        std::find_if(arm.bodies.begin(), arm.bodies.end(), [&](const ArmBody& each) { return each.link == link; });
+    std::string links;
+    for (const ArmBody& each : arm.bodies) links += (links.empty() ? "" : ", ") + each.link;
+    require(found != arm.bodies.end(), "may-touch: there is no link '", link,
+            "' with a solid; these have one: ", links);
+    return static_cast<int>(found - arm.bodies.begin());
+  };
+  for (const auto& [first, second] : may_touch) {
+    const int a = body(first), b = body(second);
+    require(a != b, "may-touch: '", first, "' stands beside itself; must be two links");
+    arm.joined.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  return arm;
+}
+
 ArmOptions completed(ArmOptions options, std::size_t joints) {
   const auto count = static_cast<Eigen::Index>(joints);
   if (options.home.size() == 0) options.home = Eigen::VectorXd::Zero(count);
@@ -120,11 +141,12 @@ void ArmOptions::validate(std::size_t joints) const {
   require(home.allFinite(), "home: must be finite");
   require(weights.allFinite() && (weights.array() > 0).all(), "joint-weights: must be positive");
   require(padding > 0 && std::isfinite(padding), "padding = ", padding, " m: must be positive");
+  require(most_remembered >= 2, "most_remembered = ", most_remembered, ": must be at least 2");
   require(most_nodes > 1, "path-nodes = ", most_nodes, ": must be at least 2");
 }
 
 Arm::Arm(ArmDescription arm, const ArmOptions& options)
-    : kinematics_(std::move(arm), options.world_from_base),
+    : kinematics_(allowing(std::move(arm), options.may_touch), options.world_from_base),
       options_(completed(options, static_cast<std::size_t>(kinematics_.joints()))) {
   for (Eigen::Index j = 0; j < kinematics_.joints(); ++j) {
     const ArmJoint& joint = kinematics_.arm().joints[static_cast<std::size_t>(j)];
@@ -132,7 +154,8 @@ Arm::Arm(ArmDescription arm, const ArmOptions& options)
             options_.home[j], " is beyond its limits ", joint.lower, " .. ", joint.upper);
   }
   const auto touching = ArmCollision(kinematics_, options_.padding).why_touching(options_.home);
-  require(!touching, "home: ", touching.value_or(""), " (solids are grown by ", options_.padding, " m)");
+  require(!touching, "home: ", touching.value_or(""), " (solids are grown by ", options_.padding,
+          " m); two links that may touch are named by may-touch: LINK LINK");
 }
 
 std::unique_ptr<Mobility> Arm::among(const Surroundings& surroundings) const {
@@ -147,7 +170,8 @@ std::optional<RobotState> Arm::state_at(const View& view) const {
   const ArmCollision collision(kinematics_, options_.padding);
   std::optional<RobotState> nearest;
   double least = 0;
-  for (const Eigen::VectorXd& solution : inverse(view)) {
+  const auto solutions = inverse(view);
+  for (const Eigen::VectorXd& solution : *solutions) {
     const Eigen::VectorXd joints = kinematics_.nearest_turns(solution, options_.home);
     const double distance = (joints - options_.home).cwiseProduct(options_.weights).norm();
     if ((nearest && distance >= least) || collision.why_touching(joints)) continue;
@@ -157,16 +181,33 @@ std::optional<RobotState> Arm::state_at(const View& view) const {
   return nearest;
 }
 
-const std::vector<Eigen::VectorXd>& Arm::inverse(const View& view) const {
+std::shared_ptr<const std::vector<Eigen::VectorXd>> Arm::inverse(const View& view) const {
   std::array<double, 12> key{};
   Eigen::Map<Eigen::Matrix<double, 3, 4>>(key.data()) = view.world_from_sensor.matrix().topRows<3>();
   {
     const std::lock_guard lock(remembering_);
-    if (const auto found = remembered_.find(key); found != remembered_.end()) return found->second;
+    if (const auto found = recent_.find(key); found != recent_.end()) return found->second;
+    if (const auto found = older_.find(key); found != older_.end()) {
+      auto joints = found->second;
+      remember(key, joints);
+      return joints;
+    }
   }
-  std::vector<Eigen::VectorXd> solutions = kinematics_.inverse(view.world_from_sensor);
+  auto joints = std::make_shared<const std::vector<Eigen::VectorXd>>(kinematics_.inverse(view.world_from_sensor));
   const std::lock_guard lock(remembering_);
-  return remembered_.try_emplace(key, std::move(solutions)).first->second;
+  remember(key, joints);
+  return joints;
+}
+
+void Arm::remember(const std::array<double, 12>& key,
+                   std::shared_ptr<const std::vector<Eigen::VectorXd>> joints) const {
+  if (recent_.size() >= options_.most_remembered / 2) older_ = std::exchange(recent_, {});
+  recent_.try_emplace(key, std::move(joints));
+}
+
+std::size_t Arm::remembered() const {
+  const std::lock_guard lock(remembering_);
+  return recent_.size() + older_.size();
 }
 
 }  // namespace vantage

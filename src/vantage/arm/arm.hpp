@@ -3,7 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "vantage/arm/arm_kinematics.hpp"
 #include "vantage/robot/robot_model.hpp"
@@ -12,11 +15,13 @@ namespace vantage {
 
 struct ArmOptions {
   Pose world_from_base = Pose::Identity();
-  Eigen::VectorXd home;     // joints before the first move, radians or metres; all 0 where it is empty
-  Eigen::VectorXd weights;  // what a radian or metre of each joint costs; all 1 where it is empty
-  double padding = 0.01;    // metres that solids are grown by; see ArmCollision
-  std::uint64_t seed = 1;   // of the search for paths
-  int most_nodes = 2000;    // of that search before it gives up
+  Eigen::VectorXd home;                 // joints before the first move, radians or metres; all 0 where it is empty
+  Eigen::VectorXd weights;              // what a radian or metre of each joint costs; all 1 where it is empty
+  double padding = 0.01;                // metres that solids are grown by; see ArmCollision
+  std::uint64_t seed = 1;               // of the search for paths
+  int most_nodes = 2000;                // of that search before it gives up
+  std::size_t most_remembered = 20000;  // views whose joints are kept, so that they are computed once
+  std::vector<std::pair<std::string, std::string>> may_touch = {};  // links, besides those that a joint connects
 
   void validate(std::size_t joints) const;
 };
@@ -37,14 +42,20 @@ class Arm : public RobotModel {
 
   [[nodiscard]] const ArmKinematics& kinematics() const { return kinematics_; }
   [[nodiscard]] const ArmOptions& options() const { return options_; }
-  /// ArmKinematics::inverse, remembered: candidate views are asked for again and again.
-  [[nodiscard]] const std::vector<Eigen::VectorXd>& inverse(const View& view) const;
+  /// ArmKinematics::inverse, remembered for the views that were asked for last: candidates are, again and again.
+  [[nodiscard]] std::shared_ptr<const std::vector<Eigen::VectorXd>> inverse(const View& view) const;
+  /// Of how many views the joints are remembered.
+  [[nodiscard]] std::size_t remembered() const;
 
  private:
   ArmKinematics kinematics_;
   ArmOptions options_;
+  using Memory = std::map<std::array<double, 12>, std::shared_ptr<const std::vector<Eigen::VectorXd>>>;
+  void remember(const std::array<double, 12>& key, std::shared_ptr<const std::vector<Eigen::VectorXd>> joints) const;
+
   mutable std::mutex remembering_;
-  mutable std::map<std::array<double, 12>, std::vector<Eigen::VectorXd>> remembered_;
+  // When the first is full it becomes the second, and what nobody asked for meanwhile is forgotten.
+  mutable Memory recent_, older_;
 };
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -53,6 +54,14 @@ Pose pose_of(const urdf::Pose& pose, const std::string& place) {
   return result;
 }
 
+Box3 extent_of(const std::string& mesh, const std::string& place, const MeshExtent& mesh_extent) {
+  try {
+    return mesh_extent(mesh);
+  } catch (const InputError& error) {
+    throw InputError(concat(place, ": ", error.what()));
+  }
+}
+
 LinkShape shape_of(const urdf::Collision& collision, const std::string& place, const MeshExtent& mesh_extent) {
   require(collision.geometry != nullptr, place, ": a collision element without geometry");
   LinkShape shape;
@@ -75,7 +84,7 @@ LinkShape shape_of(const urdf::Collision& collision, const std::string& place, c
       break;
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(*collision.geometry);
-      const Box3 extent = mesh_extent(mesh.filename);
+      const Box3 extent = extent_of(mesh.filename, place, mesh_extent);
       const Vec3 scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
       shape.size = extent.sizes().cwiseProduct(scale.cwiseAbs());
       shape.joint_from_shape = shape.joint_from_shape * Eigen::Translation3d(extent.center().cwiseProduct(scale));
@@ -90,8 +99,8 @@ LinkShape shape_of(const urdf::Collision& collision, const std::string& place, c
 class Reader {
  public:
   Reader(const urdf::ModelInterface& model, const std::string& name, const std::string& sensor,
-         const MeshExtent& mesh_extent)
-      : model_(model), name_(name), mesh_extent_(mesh_extent) {
+         const MeshExtent& mesh_extent, const std::map<std::string, std::size_t>& solids)
+      : model_(model), name_(name), mesh_extent_(mesh_extent), solids_(solids) {
     const urdf::LinkConstSharedPtr goal = model.getLink(sensor);
     require(goal != nullptr, name, ": there is no link '", sensor, "' to carry the sensor; the links are ", links());
     std::set<std::string> leads_to_sensor;
@@ -118,9 +127,13 @@ class Reader {
   void visit(const urdf::Link& link, int joint, const Pose& joint_from_link, int parent_body) {
     const std::string place = concat(name_, ": link '", link.name, "'");
     ArmBody body{link.name, joint, {}};
-    for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
-      if (collision == nullptr) continue;
-      LinkShape shape = shape_of(*collision, place, mesh_extent_);
+    const auto solids = solids_.find(link.name);
+    require(link.collision_array.size() == (solids == solids_.end() ? 0 : solids->second), place,
+            ": the parser of URDF dropped one of its elements <collision>");
+    for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
+      const std::string element = concat(place, ", collision ", i + 1);
+      require(link.collision_array[i] != nullptr, element, ": the parser of URDF dropped it");
+      LinkShape shape = shape_of(*link.collision_array[i], element, mesh_extent_);
       shape.joint_from_shape = joint_from_link * shape.joint_from_shape;
       body.shapes.push_back(std::move(shape));
     }
@@ -174,6 +187,7 @@ class Reader {
   const urdf::ModelInterface& model_;
   std::string name_, sensor_;
   const MeshExtent& mesh_extent_;
+  const std::map<std::string, std::size_t>& solids_;  // that each link must have
   std::set<std::string> on_the_chain_;
   ArmDescription arm_;
 };
@@ -182,10 +196,10 @@ class Reader {
 
 ArmDescription arm_from_urdf(std::string_view urdf, const std::string& name, const std::string& sensor,
                              const MeshExtent& mesh_extent) {
-  check_urdf(urdf, name);
-  const urdf::ModelInterfaceSharedPtr model = parsed(urdf, name);
+  const CheckedUrdf checked = check_urdf(urdf, name);
+  const urdf::ModelInterfaceSharedPtr model = parsed(checked.text, name);
   require(model->getRoot() != nullptr, name, ": has no root link");
-  return Reader(*model, name, sensor, mesh_extent).arm();
+  return Reader(*model, name, sensor, mesh_extent, checked.solids).arm();
 }
 
 }  // namespace vantage

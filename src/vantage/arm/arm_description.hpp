@@ -40,7 +40,7 @@ struct ArmDescription {
   std::vector<ArmJoint> joints;
   Pose last_from_sensor = Pose::Identity();
   std::vector<ArmBody> bodies;
-  std::vector<std::pair<int, int>> joined;  // pairs of bodies that a joint connects, which therefore may touch
+  std::vector<std::pair<int, int>> joined;  // pairs of bodies that may touch: a joint connects them
 };
 
 /// Reads the extent of a mesh that a URDF names, in the mesh's own frame and unit.

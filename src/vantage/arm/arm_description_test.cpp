@@ -80,6 +80,68 @@ TEST(ArmDescription, SaysWhatIsWrong) {
               HasSubstr("link 'tool'"));
 }
 
+/// An arm whose tool has these elements.
+std::string error_with(const std::string& tool) { return error_of(urdf_with("continuous'><axis xyz='0 0 1'/>", tool)); }
+
+std::string collision_of(const std::string& geometry) { return "<collision>" + geometry + "</collision>"; }
+
+TEST(ArmDescription, ReadsEverySolidOrRefusesIt) {
+  const std::string box = "<geometry><box size='1 2 3'/></geometry>";
+  for (const std::string& good :
+       {collision_of(box), collision_of("<origin xyz='1 0 0' rpy='0 0 1'/>" + box) + collision_of(box),
+        "<visual><geometry><capsule radius='1' length='1'/></geometry></visual>" + collision_of(box),
+        "<visual><geometry><box sise='1'/></geometry></visual><visual/>" + collision_of(box),
+        "<inertial><mass value='1'/></inertial><contact><lateral_friction value='1'/></contact>" + collision_of(box),
+        collision_of("<geometry><sphere radius='+1e-1'/></geometry>"), std::string()})
+    EXPECT_EQ(error_with(good), "no error") << good;
+  int cases = 0;
+  for (const auto& [solid, text] :
+       {std::pair<std::string, const char*>{collision_of("<geometry><capsule radius='1' length='1'/></geometry>"),
+                                            "<capsule> is no shape that can be avoided"},
+        {collision_of("<geometry><box sise='1 2 3'/></geometry>"), "<box> has the unknown attribute 'sise'"},
+        {collision_of("<geometry><box/></geometry>"), "<box> has no attribute 'size'"},
+        {collision_of("<geometry><box size='1 2'/></geometry>"), "size = '1 2': must be 3 numbers"},
+        {collision_of("<geometry><box size='1 2 3 4'/></geometry>"), "must be 3 numbers"},
+        {collision_of("<geometry><box size='1 2 x'/></geometry>"), "must be 3 numbers"},
+        {collision_of("<geometry><box size='1 2 nan'/></geometry>"), "must be 3 numbers"},
+        {collision_of("<geometry><box size='1,2,3'/></geometry>"), "must be 3 numbers"},
+        {collision_of("<geometry><sphere radius='1' length='1'/></geometry>"), "unknown attribute 'length'"},
+        {collision_of("<geometry><cylinder radius='1'/></geometry>"), "<cylinder> has no attribute 'length'"},
+        {collision_of("<geometry><mesh file='a.stl'/></geometry>"), "unknown attribute 'file'"},
+        {collision_of("<geometry><Box size='1 2 3'/></geometry>"), "<Box> is no shape"},
+        {collision_of("<geometry></geometry>"), "<geometry> is empty"},
+        {collision_of("<geometry><box size='1 2 3'/><sphere radius='1'/></geometry>"), "more than one shape"},
+        {collision_of(""), "has no <geometry>"},
+        {collision_of("<box size='1 2 3'/>"), "unknown part <box>"},
+        {collision_of("<geometri><box size='1 2 3'/></geometri>"), "unknown part <geometri>"},
+        {collision_of("<origin xzy='1 0 0'/>" + box), "<origin> has the unknown attribute 'xzy'"},
+        {collision_of("<origin xyz='1 0'/>" + box), "xyz = '1 0': must be 3 numbers"},
+        {collision_of("<origin xyz='1 0 0'/><origin xyz='2 0 0'/>" + box), "more than one <origin>"},
+        {collision_of(box + box), "more than one <geometry>"},
+        {"<colision>" + box + "</colision>", "has a solid in the unknown element <colision>"},
+        {"<collision_checking><capsule radius='1' length='1'/></collision_checking>", "<collision_checking>"}}) {
+    const std::string error = error_with(solid);
+    EXPECT_THAT(error, testing::StartsWith("a.urdf: link 'tool'")) << solid;
+    EXPECT_THAT(error, HasSubstr(text)) << solid;
+    ++cases;
+  }
+  EXPECT_EQ(cases, 23);
+  EXPECT_THAT(error_with(collision_of(box) + collision_of("")), HasSubstr("link 'tool', collision 2: "));
+  EXPECT_THAT(error_of("<robot name='r'><link name='root'/><collision>" + box + "</collision></robot>"),
+              HasSubstr("outside of any link"));
+}
+
+TEST(ArmDescription, ThePlaceOfAMeshThatCannotBeRead) {
+  try {
+    (void)arm_from_urdf(
+        urdf_with("continuous'><axis xyz='0 0 1'/>", collision_of("<geometry><mesh filename='m.stl'/></geometry>")),
+        "a.urdf", "tool", [](const std::string&) -> Box3 { throw InputError("m.stl: is cut off"); });
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "a.urdf: link 'tool', collision 1: m.stl: is cut off");
+  }
+}
+
 std::string repeated(const std::string& text, int times) {
   std::string all;
   for (int i = 0; i < times; ++i) all += text;
@@ -104,6 +166,14 @@ TEST(ArmDescription, RefusesFormatsInValues) {
   EXPECT_THAT(error_of(urdf_with("continuous'><origin xyz='0 0 %n%n%s'/><axis xyz='0 0 1'/>")),
               HasSubstr("the sign % stands in an element"));
   EXPECT_EQ(error_of("<!-- 100 % --> " + urdf_with("continuous'><axis xyz='0 0 1'/>")), "no error");
+}
+
+// The XML parser compares each attribute with all others.
+TEST(ArmDescription, RefusesWhatTakesLongToRead) {
+  std::string attributes;
+  for (int i = 0; i < 60000; ++i) attributes += concat(" a", i, "='1'");
+  EXPECT_THAT(error_of("<robot name='r'" + attributes + "/>"), HasSubstr("an element with more than 100 attributes"));
+  EXPECT_THAT(error_of("<robot>" + std::string(std::size_t{5} << 20U, ' ') + "</robot>"), HasSubstr("at most 4194304"));
 }
 
 // The XML parser calls itself once per level, and would run out of stack.

@@ -48,7 +48,8 @@ TEST_F(ArmAtATable, EveryViewIsReachedOrHasAReason) {
     ++reached;
     bool some_are_free = false;
     const ArmCollision collision(arm.kinematics(), arm.options().padding, {map, table});
-    for (const Eigen::VectorXd& joints : arm.inverse(view)) some_are_free |= !collision.why_touching(joints);
+    const auto all = arm.inverse(view);
+    for (const Eigen::VectorXd& joints : *all) some_are_free |= !collision.why_touching(joints);
     EXPECT_TRUE(some_are_free);
   }
   EXPECT_GE(reached, 20);
@@ -134,6 +135,45 @@ TEST_F(ArmAtATable, RefusesOptionsThatDoNotFit) {
   bad = options();
   bad.padding = 0;
   EXPECT_THAT(error_of(bad), HasSubstr("padding"));
+}
+
+TEST(Arm, RemembersTheJointsOfViewsWithinALimit) {
+  ArmOptions few = options();
+  few.most_remembered = 8;
+  const Arm arm(test::sample_arm(), few), same(test::sample_arm(), options());
+  const Candidates candidates = view_sphere(20, 0.32, Vec3(0.62, 0, 0.065));
+  const auto first = arm.inverse(candidates.views[0]);
+  EXPECT_EQ(arm.inverse(candidates.views[0]), first) << "the same, not computed again";
+  for (const View& view : candidates.views) {
+    EXPECT_EQ(*arm.inverse(view), *same.inverse(view));
+    EXPECT_EQ(*arm.inverse(candidates.views[0]), *first);
+    EXPECT_LE(arm.remembered(), 8U);
+  }
+  EXPECT_EQ(arm.inverse(candidates.views[0]), first) << "asked for all the time, so it is never forgotten";
+  EXPECT_EQ(same.remembered(), 20U);
+}
+
+TEST(Arm, LinksThatMayTouchAreNamed) {
+  ArmOptions folded = options();
+  folded.home = Eigen::VectorXd::Zero(6);
+  folded.home[2] = radians(165);  // the forearm lies along the upper arm
+  std::string error;
+  try {
+    (void)Arm(test::sample_arm(), folded);
+  } catch (const InputError& refused) {
+    error = refused.what();
+  }
+  ASSERT_THAT(error, HasSubstr("home: link "));
+  EXPECT_THAT(error, HasSubstr("may-touch: LINK LINK"));
+  for (const char* a : {"base", "shoulder", "upper_arm"}) {
+    for (const char* b : {"forearm", "wrist_1_link", "wrist_2_link", "wrist_3_link", "camera"})
+      folded.may_touch.emplace_back(b, a);
+  }
+  EXPECT_NO_THROW((void)Arm(test::sample_arm(), folded));
+  folded.may_touch = {{"base", "elbow"}};
+  EXPECT_THROW((void)Arm(test::sample_arm(), folded), InputError) << "a joint, no link";
+  folded.may_touch = {{"base", "base"}};
+  EXPECT_THROW((void)Arm(test::sample_arm(), folded), InputError);
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <tinyxml.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <map>
 
+#include "vantage/arm/urdf_solids.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -12,6 +15,8 @@ namespace {
 // The XML parser calls itself once per level, and those who walk over links once per link.
 constexpr int deepest = 200;
 constexpr std::size_t most_joints = 999;
+constexpr std::size_t most_bytes = std::size_t{4} << 20U;
+constexpr std::size_t most_attributes = 100;  // of an element; the XML parser compares each with all others
 
 /// The place after `end`, which is searched from `from` on; the end of the text where it does not come.
 std::size_t after(std::string_view text, std::string_view end, std::size_t from) {
@@ -20,8 +25,9 @@ std::size_t after(std::string_view text, std::string_view end, std::size_t from)
 }
 
 /// The place after the tag that begins at `at`, whose attributes may hold any signs in quotes.
-std::size_t after_tag(std::string_view text, std::size_t at) {
+std::size_t after_tag(std::string_view text, std::size_t at, const std::string& name) {
   char quote = 0;
+  std::size_t attributes = 0;
   for (; at < text.size(); ++at) {
     const char c = text[at];
     if (quote != 0) {
@@ -30,6 +36,9 @@ std::size_t after_tag(std::string_view text, std::size_t at) {
       quote = c;
     } else if (c == '>') {
       return at + 1;
+    } else if (c == '=') {
+      require(++attributes <= most_attributes, name, ": not a robot description (URDF): has an element with more than ",
+              most_attributes, " attributes");
     }
   }
   return at;
@@ -51,7 +60,7 @@ void require_flat(std::string_view text, const std::string& name) {
     } else {
       const bool closes = rest.starts_with("</");
       const std::size_t begin = at;
-      at = after_tag(text, at);
+      at = after_tag(text, at, name);
       // The parser hands bad values on to printf() as a format.
       require(text.substr(begin, at - begin).find('%') == std::string_view::npos, name,
               ": not a robot description (URDF): the sign % stands in an element; only comments may have it");
@@ -87,13 +96,34 @@ void require_tree(const TiXmlElement& robot, const std::string& name) {
   }
 }
 
+/// Removes all elements but those of these names.
+void keep_only(TiXmlElement& parent, std::initializer_list<std::string_view> names) {
+  for (TiXmlElement* child = parent.FirstChildElement(); child != nullptr;) {
+    TiXmlElement* const next = child->NextSiblingElement();
+    if (std::find(names.begin(), names.end(), child->Value()) == names.end()) parent.RemoveChild(child);
+    child = next;
+  }
+}
+
 }  // namespace
 
-void check_urdf(std::string_view text, const std::string& name) {
+CheckedUrdf check_urdf(std::string_view text, const std::string& name) {
   require_flat(text, name);
+  require(text.size() <= most_bytes, name, ": has ", text.size(), " bytes; a robot description must have at most ",
+          most_bytes);
   TiXmlDocument document;
   document.Parse(std::string(text).c_str());
-  if (const TiXmlElement* robot = document.FirstChildElement("robot")) require_tree(*robot, name);
+  TiXmlElement* robot = document.FirstChildElement("robot");
+  if (document.Error() || robot == nullptr) return {std::string(text), {}};  // the parser says what is wrong
+  require_tree(*robot, name);
+  CheckedUrdf checked{{}, check_solids(*robot, name)};
+  keep_only(*robot, {"link", "joint"});
+  for (TiXmlElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link"))
+    keep_only(*link, {"collision"});
+  TiXmlPrinter printer;
+  document.Accept(&printer);
+  checked.text = printer.Str();
+  return checked;
 }
 
 }  // namespace vantage

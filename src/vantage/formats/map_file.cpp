@@ -16,6 +16,7 @@ namespace {
 
 constexpr double centre_tolerance = 0.05;  // voxel lengths; float32 rounds by far less in any sensible scene
 constexpr double unit_tolerance = 1e-3;
+constexpr std::int64_t most_whole_voxels = std::int64_t{1} << 27;  // of a scene that is written whole
 
 std::filesystem::path surface_path(const std::filesystem::path& path) {
   require(path.extension() == ".nrrd", path.string(), ": the name of a map must end in .nrrd");
@@ -28,15 +29,16 @@ void write_labels(const VoxelMap& map, const std::filesystem::path& path) {
   const Grid& grid = map.grid();
   const IndexBox& enclosure = map.enclosure();
   AtomicFile file(path);
-  file.write(nrrd_header(grid, enclosure));
-  const std::string outside(static_cast<std::size_t>(grid.size.x()), static_cast<char>(Label::empty));
+  const IndexBox stored = grid.size.cast<std::int64_t>().prod() > most_whole_voxels ? enclosure : grid.all();
+  file.write(nrrd_header(grid, enclosure, stored));
+  const std::string outside(static_cast<std::size_t>(stored.size().x()), static_cast<char>(Label::empty));
   std::string row;
-  for (int z = 0; z < grid.size.z(); ++z) {
-    for (int y = 0; y < grid.size.y(); ++y) {
+  for (int z = stored.min.z(); z <= stored.max.z(); ++z) {
+    for (int y = stored.min.y(); y <= stored.max.y(); ++y) {
       row = outside;
       if (enclosure.contains({enclosure.min.x(), y, z})) {
         for (int x = enclosure.min.x(); x <= enclosure.max.x(); ++x) {
-          row[static_cast<std::size_t>(x)] = static_cast<char>(map.label({x, y, z}));
+          row[static_cast<std::size_t>(x - stored.min.x())] = static_cast<char>(map.label({x, y, z}));
         }
       }
       file.write(row);
@@ -62,12 +64,12 @@ void write_surface(const VoxelMap& map, const std::filesystem::path& path) {
 }
 
 void set_labels(const Nrrd& nrrd, const std::string& name, VoxelMap& map) {
-  const Grid& grid = map.grid();
+  const IndexBox& stored = nrrd.stored;
   std::size_t at = 0;
   Index3 voxel;
-  for (voxel.z() = 0; voxel.z() < grid.size.z(); ++voxel.z()) {
-    for (voxel.y() = 0; voxel.y() < grid.size.y(); ++voxel.y()) {
-      for (voxel.x() = 0; voxel.x() < grid.size.x(); ++voxel.x()) {
+  for (voxel.z() = stored.min.z(); voxel.z() <= stored.max.z(); ++voxel.z()) {
+    for (voxel.y() = stored.min.y(); voxel.y() <= stored.max.y(); ++voxel.y()) {
+      for (voxel.x() = stored.min.x(); voxel.x() <= stored.max.x(); ++voxel.x()) {
         const auto value = static_cast<unsigned char>(nrrd.voxels[at++]);
         if (value >= all_labels.size()) {
           throw InputError(fmt::format("{}: voxel {} has the label {}: labels go from 0 to {}", name, text_of(voxel),

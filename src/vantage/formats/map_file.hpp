@@ -9,9 +9,10 @@
 
 namespace vantage {
 
-/// Writes `NAME.nrrd` (labels of the whole scene) and `NAME.ply` beside it (centre, normal and quality of each occupied
-/// voxel, float32) as the spec's section 10 says; `path` must end in .nrrd. Each file is replaced atomically. Throws
-/// Error where a path is not writable or the disk is full.
+/// Writes `NAME.nrrd` (labels of the whole scene, or of the enclosure where the scene has more than 2^27 voxels:
+/// outside of it all are empty, and a file must not be as large as a scene may be) and `NAME.ply` beside it (centre,
+/// normal and quality of each occupied voxel, float32) as the spec's section 10 says; `path` must end in .nrrd. Each
+/// file is replaced atomically. Throws Error where a path is not writable or the disk is full.
 void write_map(const VoxelMap& map, const std::filesystem::path& path);
 
 /// Reads what write_map() writes, and NRRD files of other programs with raw uint8 labels. Without the key `enclosure`

@@ -83,6 +83,46 @@ TEST(MapFile, WhatIsWrittenIsRead) {
   }
 }
 
+TEST(MapFile, AnEmptySceneTakesNoRoom) {
+  const TestFolder folder;
+  const Grid grid{{-0.31, 0.7, -2.05}, 0.02, {16384, 16384, 1000}};
+  VoxelMap map(grid, {{9000, 8000, 300}, {9003, 8004, 305}});
+  Random random(3);
+  int occupied = 0;
+  for (int z = 300; z <= 305; ++z) {
+    for (int y = 8000; y <= 8004; ++y) {
+      for (int x = 9000; x <= 9003; ++x)
+        map.set_label({x, y, z}, all_labels[static_cast<std::size_t>(random.index(5))]);
+    }
+  }
+  write_map(map, folder / "a.nrrd");
+  EXPECT_LT(std::filesystem::file_size(folder / "a.nrrd"), 1000U);
+  std::string labels = read_file(folder / "a.nrrd");
+  EXPECT_THAT(labels, HasSubstr("\nsizes: 4 5 6\n"));
+  EXPECT_THAT(labels, HasSubstr("\nenclosure:=0 0 0 3 4 5\n"));
+  const std::string surface = read_file(folder / "a.ply");
+  const VoxelMap read = parse_map({"a.nrrd", labels}, NamedBytes{"a.ply", surface});
+  EXPECT_EQ(read.grid().min, grid.min) << "to the last bit";
+  EXPECT_EQ(read.grid().size, grid.size);
+  EXPECT_EQ(read.enclosure().min, map.enclosure().min);
+  EXPECT_EQ(read.enclosure().max, map.enclosure().max);
+  for (int z = 300; z <= 305; ++z) {
+    for (int y = 8000; y <= 8004; ++y) {
+      for (int x = 9000; x <= 9003; ++x) {
+        ASSERT_EQ(read.label({x, y, z}), map.label({x, y, z}));
+        occupied += map.label({x, y, z}) == Label::occupied ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(occupied, 5);
+  const std::string scene = "scene:=16384 16384 1000 9000 8000 300";
+  labels.replace(labels.find(scene), scene.size(), "scene:=16384 16384 305 9000 8000 300 ");
+  EXPECT_THAT(input_error_of([&] {
+                (void)parse_map({"a.nrrd", labels}, std::nullopt);
+              }),
+              HasSubstr("the key 'scene' says that there are"));
+}
+
 TEST(MapFile, GridsSurviveToTheLastBit) {
   Random random(7);
   int exact = 0;

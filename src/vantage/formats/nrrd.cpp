@@ -47,6 +47,8 @@ struct NrrdHeader {
   std::optional<double> length;
   std::optional<Vec3> origin;
   std::optional<IndexBox> enclosure;
+  std::optional<Grid> scene;    // of which the file holds a part; without its length
+  std::optional<Index3> first;  // voxel of the file in it
 };
 
 double voxel_length(const TextReader& text, std::string_view value) {
@@ -99,6 +101,20 @@ IndexBox read_enclosure(const TextReader& text, std::string_view value) {
   return box;
 }
 
+/// `scene:=SIZES FIRST MIN`: voxels of the scene, the index of the file's first voxel in it, and its lower corner in
+/// metres.
+void read_scene(const TextReader& text, std::string_view value, NrrdHeader& header) {
+  const std::vector<double> n = numbers(text, "scene", value, 9);
+  Grid& scene = header.scene.emplace();
+  Index3& first = header.first.emplace();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Eigen::Index>(axis);
+    scene.size[a] = whole(text, "scene", n[axis], 1, longest_side);
+    first[a] = whole(text, "scene", n[axis + 3], 0, longest_side - 1);
+    scene.min[a] = n[axis + 6];
+  }
+}
+
 NrrdHeader read_nrrd_header(TextReader& text) {
   if (!text.next_line() || text.rest_of_line().size() != 8 || text.rest_of_line().substr(0, 7) != "NRRD000") {
     throw InputError(text.name() + ": is not a NRRD file (its first line must be 'NRRD0005')");
@@ -117,6 +133,8 @@ NrrdHeader read_nrrd_header(TextReader& text) {
       read_field(text, field, trimmed(line.substr(colon + 1)), header);
     } else if (field == "enclosure") {
       header.enclosure = read_enclosure(text, trimmed(line.substr(colon + 2)));
+    } else if (field == "scene") {
+      read_scene(text, trimmed(line.substr(colon + 2)), header);
     }
   }
   throw InputError(text.name() + ": the header ends without an empty line; the file is cut off");
@@ -151,21 +169,44 @@ Nrrd parse_nrrd(std::string_view bytes, const std::string& name) {
     throw InputError(fmt::format("{}: sizes {} {} {} need {} bytes, but {} follow the header", name, header.sizes->x(),
                                  header.sizes->y(), header.sizes->z(), voxels, text.rest().size()));
   }
-  return {{*header.origin - Vec3::Constant(0.5 * *header.length), *header.length, *header.sizes},
-          header.enclosure,
-          text.rest()};
+  Nrrd nrrd{{*header.origin - Vec3::Constant(0.5 * *header.length), *header.length, *header.sizes},
+            {Index3::Zero(), *header.sizes - Index3::Ones()},
+            header.enclosure,
+            text.rest()};
+  if (!header.scene) return nrrd;
+  nrrd.grid = {header.scene->min, *header.length, header.scene->size};
+  const auto in_scene = [&](const IndexBox& box) {
+    const IndexBox moved{box.min + *header.first, box.max + *header.first};
+    require(nrrd.grid.contains(moved.min) && nrrd.grid.contains(moved.max), name,
+            ": the key 'scene' says that there are ", nrrd.grid.size.transpose(),
+            " voxels, among which those of the file are not");
+    return moved;
+  };
+  nrrd.stored = in_scene(nrrd.stored);
+  nrrd.enclosure = nrrd.enclosure ? in_scene(*nrrd.enclosure) : nrrd.stored;
+  return nrrd;
 }
 
-std::string nrrd_header(const Grid& grid, const IndexBox& enclosure) {
+std::string nrrd_header(const Grid& grid, const IndexBox& enclosure, const IndexBox& stored) {
   std::string header = "NRRD0005\n# Labels: 0 unmarked, 1 occupied, 2 empty, 3 occluded, 4 occplane\n";
   header += "type: uint8\ndimension: 3\nspace dimension: 3\n";
-  header += fmt::format("sizes: {} {} {}\n", grid.size.x(), grid.size.y(), grid.size.z());
+  const Index3 size = stored.size();
+  // Of the whole scene to the last bit; of a part, the key `scene` has the bits.
+  const bool is_whole = stored.size() == grid.size;
+  const Vec3 first = is_whole ? Vec3(origin(grid.min.x(), grid.length), origin(grid.min.y(), grid.length),
+                                     origin(grid.min.z(), grid.length))
+                              : grid.center(stored.min);
+  const IndexBox inside{enclosure.min - stored.min, enclosure.max - stored.min};
+  header += fmt::format("sizes: {} {} {}\n", size.x(), size.y(), size.z());
   header += fmt::format("space directions: ({0},0,0) (0,{0},0) (0,0,{0})\n", grid.length);
   header += "kinds: domain domain domain\nspace units: \"m\" \"m\" \"m\"\nencoding: raw\n";
-  header += fmt::format("space origin: ({},{},{})\n", origin(grid.min.x(), grid.length),
-                        origin(grid.min.y(), grid.length), origin(grid.min.z(), grid.length));
-  header += fmt::format("enclosure:={} {} {} {} {} {}\n", enclosure.min.x(), enclosure.min.y(), enclosure.min.z(),
-                        enclosure.max.x(), enclosure.max.y(), enclosure.max.z());
+  header += fmt::format("space origin: ({},{},{})\n", first.x(), first.y(), first.z());
+  header += fmt::format("enclosure:={} {} {} {} {} {}\n", inside.min.x(), inside.min.y(), inside.min.z(),
+                        inside.max.x(), inside.max.y(), inside.max.z());
+  if (!is_whole) {
+    header += fmt::format("scene:={} {} {} {} {} {} {} {} {}\n", grid.size.x(), grid.size.y(), grid.size.z(),
+                          stored.min.x(), stored.min.y(), stored.min.z(), grid.min.x(), grid.min.y(), grid.min.z());
+  }
   return header + "\n";
 }
 

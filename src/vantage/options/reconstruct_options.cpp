@@ -67,6 +67,7 @@ std::vector<std::string> planning_option_names() {
           "workspace",
           "obstacles",
           "robot",
+          "package",
           "travel",
           "search",
           "rays",

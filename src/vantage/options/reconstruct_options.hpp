@@ -33,7 +33,8 @@ struct ReconstructOptions : ErrorOptions {
   double body_radius = 0;
   std::optional<std::string> workspace;
   std::optional<std::string> obstacles;
-  std::optional<std::string> robot;  // a file; see load_robot
+  std::optional<std::string> robot;    // a file; see load_robot
+  std::optional<std::string> package;  // see packages_from_text
   std::optional<std::string> travel;
   std::shared_ptr<const RobotModel> robot_model;  // what load_robot made of the file; no option
 
@@ -98,6 +99,7 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("workspace", o.workspace, "m", "box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given");
   field("obstacles", o.obstacles, "m", "solid boxes cx,cy,cz,sx,sy,sz separated by ';'");
   field("robot", o.robot, "", "YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md");
+  field("package", o.package, "", "folders of the packages that the robot's URDF names, NAME=FOLDER separated by ';'");
   field("travel", o.travel, "",
         "what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight");
   field("search", o.search, "", "exhaustive or multi-resolution");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ struct RobotDescription {
   double padding = 0.01;
   std::uint64_t path_seed = 1;
   int path_nodes = 2000;
+  std::optional<std::string> may_touch;
 
   Vec3 arc_center = Vec3::Zero();
   double arc_radius = 1;
@@ -49,6 +51,7 @@ void describe(RobotDescription& o, Field&& field) {
   field("joint-weights", o.joint_weights, "", "arm: what a radian (metre) of each joint costs; 1 if not given");
   field("padding", o.padding, "m", "arm: its solids are grown by this");
   field("path-seed", o.path_seed, "", "arm: seed of the search for paths");
+  field("may-touch", o.may_touch, "", "arm: links that may touch, LINK LINK; neighbours at a joint always may");
   field("path-nodes", o.path_nodes, "", "arm: places that are tried before the search gives up");
   field("arc-center", o.arc_center, "m", "turntable: what the sensor looks at; on the table's axis");
   field("arc-radius", o.arc_radius, "m", "turntable: distance of the sensor from there");
@@ -64,6 +67,12 @@ void describe(RobotDescription& o, Field&& field) {
 
 /// Names of what a kind of robot knows, `kind` among them. Throws InputError that lists the kinds.
 [[nodiscard]] std::vector<std::string> robot_option_names(const std::string& kind);
+
+/// The folders in a text like `ur_description=/opt/ur; tool=../tool`. Throws InputError that names the option
+/// `package`.
+[[nodiscard]] std::map<std::string, std::filesystem::path> packages_from_text(const std::string& text);
+/// The same text with folders that do not depend on where the program runs; relative ones are seen from `from`.
+[[nodiscard]] std::string absolute_packages(const std::string& text, const std::filesystem::path& from);
 
 /// Reads the robot that `options.robot` names into `options.robot_model`; nothing where it names none. Other keys of
 /// the file are the program's options: they set those of `options` that are not `given` by somebody else. Body radius,

@@ -108,5 +108,52 @@ TEST_F(RobotFile, TheSampleIsRead) {
   EXPECT_EQ(dynamic_cast<const Arm&>(*options.robot_model).kinematics().joints(), 6);
 }
 
+/// The arm with a mesh at its hand, which must be read for the collisions.
+std::string urdf_with_mesh(const std::string& file) {
+  std::string urdf = two_joints;
+  const std::string link = "<link name=\"camera\"/>";
+  urdf.replace(
+      urdf.find(link), link.size(),
+      "<link name=\"camera\"><collision><geometry><mesh filename=\"" + file + "\"/></geometry></collision></link>");
+  return urdf;
+}
+
+TEST_F(RobotFile, FindsTheMeshesOfPackages) {
+  const std::string off = "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n";
+  std::filesystem::create_directories(folder_ / "share" / "meshes");
+  write_file_atomically(folder_ / "share" / "meshes" / "hand.off", off);
+  const std::string arm = "kind: arm\nurdf: two.urdf\n";
+  const auto with_mesh = [&](const std::string& file) {
+    write_file_atomically(folder_ / "two.urdf", urdf_with_mesh(file));
+  };
+  with_mesh("package://hand_description/meshes/hand.off");
+  EXPECT_THAT(error_of(arm),
+              testing::AllOf(HasSubstr("link 'camera', collision 1"), HasSubstr("--package hand_description=FOLDER")));
+  EXPECT_THAT(error_of(arm + "package: other=share\n"), HasSubstr("--package hand_description=FOLDER"));
+  EXPECT_THAT(error_of(arm + "package: hand_description\n"), HasSubstr("must be NAME=FOLDER"));
+  EXPECT_THAT(error_of(arm + "package: a=x; a=y\n"), HasSubstr("has a folder already"));
+  const ReconstructOptions options = loaded(arm + "package: other=x; hand_description = share\n");
+  const auto* found = dynamic_cast<const Arm*>(options.robot_model.get());
+  ASSERT_NE(found, nullptr);
+  EXPECT_LT((found->kinematics().arm().bodies.at(0).shapes.at(0).size - Vec3(0.1, 0.1, 0.1)).norm(), 1e-9);
+  EXPECT_TRUE(std::filesystem::path(packages_from_text(*options.package).at("hand_description")).is_absolute());
+  with_mesh("file://" + (folder_ / "share" / "meshes" / "hand.off").string());
+  EXPECT_NO_THROW((void)loaded(arm));
+  with_mesh("share/meshes/hand.off");
+  EXPECT_NO_THROW((void)loaded(arm));
+  with_mesh("share/meshes/hand.DAE");
+  EXPECT_THAT(error_of(arm), HasSubstr("COLLADA is not read; convert it"));
+  with_mesh("http://example.org/hand.off");
+  EXPECT_THAT(error_of(arm), HasSubstr("is named by a URL"));
+}
+
+TEST_F(RobotFile, NamesLinksThatMayTouch) {
+  write_file_atomically(folder_ / "two.urdf", two_joints);
+  const std::string arm = "kind: arm\nurdf: two.urdf\n";
+  EXPECT_THAT(error_of(arm + "may-touch: base\n"), HasSubstr("must be two links, LINK LINK"));
+  EXPECT_THAT(error_of(arm + "may-touch: a b c\n"), HasSubstr("must be two links, LINK LINK"));
+  EXPECT_THAT(error_of(arm + "may-touch: base camera\n"), HasSubstr("there is no link 'base' with a solid"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -34,14 +34,18 @@ RangeCamera ScanPlanningOptions::camera(const std::optional<RangeCamera>& of_sca
 }
 
 Planner ScanPlanningOptions::planner(const Candidates& candidates, const std::optional<RangeCamera>& of_scans) const {
-  ReconstructOptions options = planning;
-  if (options.robot && !options.robot_model) {
-    // Options that come with the robot were applied, or not, when these ones were made.
-    std::set<std::string> given;
-    for (const OptionField& field : option_fields(options)) given.insert(field.name);
-    load_robot(options, given);
-  }
-  return Planner(candidates, camera(of_scans), options.planner_options());
+  if (!planning.robot || planning.robot_model) return Planner(candidates, camera(of_scans), planning.planner_options());
+  ScanPlanningOptions copy = *this;
+  copy.load_robot_model();
+  return Planner(candidates, camera(of_scans), copy.planning.planner_options());
+}
+
+void ScanPlanningOptions::load_robot_model() {
+  if (!planning.robot || planning.robot_model) return;
+  // Options that come with the robot were applied, or not, when these ones were made.
+  std::set<std::string> given;
+  for (const OptionField& field : option_fields(planning)) given.insert(field.name);
+  load_robot(planning, given);
 }
 
 std::vector<OptionField> option_fields(ScanPlanningOptions& options) {

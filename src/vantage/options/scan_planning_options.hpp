@@ -21,6 +21,9 @@ struct ScanPlanningOptions {
   void validate_without_commands() const;
   /// The camera that views are planned for: that of the scans where they have one, with the depth range of the options.
   [[nodiscard]] RangeCamera camera(const std::optional<RangeCamera>& of_scans) const;
+  /// Reads the robot's file, where one is named and not read yet; otherwise each planner() reads it, and forgets what
+  /// the robot has computed. Throws InputError with the file and the line.
+  void load_robot_model();
   [[nodiscard]] Planner planner(const Candidates& candidates, const std::optional<RangeCamera>& of_scans) const;
 };
 

@@ -7,6 +7,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/options/robot_file.hpp"
 #include "vantage/session/sealed_file.hpp"
 #include "vantage/session/session_model.hpp"
 #include "vantage/session/skipped_views.hpp"
@@ -53,6 +54,7 @@ void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& opti
   // The session may be opened from anywhere; numbers stand as they are.
   const auto make_absolute = [](std::string& file) { file = fs::absolute(file).lexically_normal().string(); };
   if (copy.planning.robot) make_absolute(*copy.planning.robot);
+  if (copy.planning.package) copy.planning.package = absolute_packages(*copy.planning.package, {});
   if (copy.reading.hand_eye_is_file()) make_absolute(copy.reading.hand_eye);
   write_file_atomically(data / options_file, "# vantage session, format 1\n" + options_as_yaml(option_fields(copy)));
 }
@@ -63,6 +65,11 @@ ScanPlanningOptions SessionFolder::options_of(const fs::path& path) {
   ScanPlanningOptions options;
   set_options_from_yaml(option_fields(options), read_file(file), file.string());
   options.validate();
+  try {
+    options.load_robot_model();
+  } catch (const Error&) {
+    // Scans can be added without it, and plans say what is wrong.
+  }
   require(options.scene.box.has_value(), file.string(), ": has no box");
   return options;
 }
