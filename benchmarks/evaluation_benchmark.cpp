@@ -25,7 +25,7 @@ struct Job {
         camera(paper_camera({static_cast<int>(state.range(1)), static_cast<int>(state.range(1))})) {}
 };
 
-/// Prepared anew every time, as the planner does after every scan.
+/// Prepared again every time, as the planner does after every scan.
 std::vector<Visibility> by_evaluator(const Job& job) {
   return VisibilityEvaluator(job.map).see(job.camera, job.views, std::span(&job.camera.resolution, 1));
 }

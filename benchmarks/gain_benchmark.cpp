@@ -1,4 +1,4 @@
-// A whole plan by `gain` against one by the combined utility: 80 views, exhaustive, 320 x 320 rays, prepared anew as
+// A whole plan by `gain` against one by the combined utility: 80 views, exhaustive, 320 x 320 rays, prepared again as
 // after every scan.
 #include <tbb/global_control.h>
 

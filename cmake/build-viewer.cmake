@@ -23,7 +23,7 @@ if(NOT NPM)
   return()
 endif()
 file(LOCK ${VIEWER}/.build.lock GUARD PROCESS TIMEOUT 600)
-# What is installed is told by the contents of the lock file, not by its age: a checkout makes files new.
+# What is installed is recognised by the contents of the lock file, not by its age: a checkout makes files new.
 file(SHA256 ${VIEWER}/package-lock.json wanted)
 set(installed "")
 if(EXISTS ${VIEWER}/node_modules/.installed)

@@ -17,7 +17,7 @@ class Turntable : public Robot {
   explicit Turntable(const RangeCamera& camera) : camera_(camera) {}
 
   bool move_to(const View& view) override {
-    // The planner does not know this limit; it is told so here and plans another view.
+    // The planner does not know this limit; `move_to` says so here, and it plans another view.
     if (view.position().z() < -0.05) return false;
     view_ = view;
     return true;

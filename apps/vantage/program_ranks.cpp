@@ -27,7 +27,7 @@ std::unique_ptr<Ranks> program_ranks() {
   return make_mpi_ranks();
 #else
   if (processes_started() == 1) return std::make_unique<SingleRank>();
-  throw Error("started by mpirun but built without MPI: run `cmake/install-packages mpi` and configure anew");
+  throw Error("started by mpirun but built without MPI: run `cmake/install-packages mpi` and configure again");
 #endif
 }
 

@@ -10,7 +10,7 @@ namespace vantage::python {
 
 /// Sets the options that the keywords name: `max_views=5` is the command line's `--max-views 5`. Lists, tuples and
 /// arrays stand for numbers with commas between, None for no value. Throws InputError for an unknown name (with the
-/// nearest one) or a value of the wrong kind; `function` stands in its text.
+/// nearest one) or a value of the wrong kind; `function` is named in its text.
 void set_options(const std::vector<OptionField>& fields, const py::kwargs& keywords, const std::string& function);
 
 /// One line per option for a docstring: name, default, unit and meaning.

@@ -10,7 +10,7 @@
 namespace vantage::python {
 namespace {
 
-/// The planner's options as they stand in ReconstructOptions, so that names, defaults and meanings are those of the
+/// The planner's options as ReconstructOptions has them, so that names, defaults and meanings are those of the
 /// command line. Camera, candidates and utility are arguments of their own.
 std::vector<OptionField> planner_fields(ReconstructOptions& options) {
   std::vector<std::string> names = planning_option_names();

@@ -18,7 +18,7 @@ STUBS = (PYTHON / "vantage" / "__init__.pyi").read_text()
 class Stubs(unittest.TestCase):
     def test_they_are_what_the_module_says(self):
         self.assertEqual(STUBS, make_stubs.stubs(),
-                         "make them anew: PYTHONPATH=build/release/python python3 python/make_stubs.py "
+                         "generate them again: PYTHONPATH=build/release/python python3 python/make_stubs.py "
                          "> python/vantage/__init__.pyi")
 
     def test_they_are_python_and_name_everything(self):

@@ -12,7 +12,7 @@ import time
 import unittest
 
 VANTAGE = sys.argv.pop(1)
-# Open MPI refuses to run as root, as in containers, unless it is told that this is meant.
+# Open MPI refuses to run as root, as in containers, unless a flag says that this is meant.
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 KILLS = 10
 

@@ -248,7 +248,7 @@ class Reading(Sessions):
         shutil.rmtree(folder, ignore_errors=True)
         succeed("session", "new", folder, *self.options, *options)
         for frame in sorted(scans.glob("*.depth.png")):
-            succeed("session", "add", folder, frame, cwd="/")  # what it was told must hold from anywhere
+            succeed("session", "add", folder, frame, cwd="/")  # what it was given must hold from anywhere
         return json.loads(succeed("session", "next", folder, "--json"))
 
     def doctor(self, scans, *options):

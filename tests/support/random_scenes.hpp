@@ -157,7 +157,7 @@ inline Vec3 random_position(const VoxelMap& map, Random& random, Stand stand) {
   return center;
 }
 
-/// The sensor's axes along the world's, in one of the 24 ways.
+/// The sensor's axes along the world's, in one of the 24 orientations.
 inline Mat3 axis_parallel(Random& random) {
   const int right = random.index(3);
   const int down = (right + 1 + random.index(2)) % 3;

@@ -237,7 +237,7 @@ describe("what cannot be shown", () => {
     ["from a newer program", () => fill(JSON.stringify({ ...run, version: 7 })), "use a newer page"],
     ["with a broken array", () => fill(JSON.stringify({ ...run, scans: [{ ...run["scans"][0], labels: { type: "u8", shape: [5], data: "xx" } }] })), "scans[0].labels"],
   ]; // prettier-ignore
-  it.each(cases)("is told in words: data %s", async (name, html, message) => {
+  it.each(cases)("is reported in words: data %s", async (name, html, message) => {
     const watched = await openReport(browser, writeReport(`${name.replaceAll(" ", "-")}.html`, html()));
     expect(await watched.page.textContent("[role=alert]")).toContain(message);
     await expectQuiet(watched);

@@ -9,7 +9,7 @@ namespace vantage {
 /// there were no error, on mug and SGI logo.
 [[nodiscard]] Experiment orientation_experiment(const ExperimentOptions& options);
 /// `learning`: errors of 10 and 20 cm that the planner does not know, learned from the registered scans, against
-/// planners that were told and that plan as if there were none.
+/// planners that know it and that plan as if there were none.
 [[nodiscard]] Experiment learning_experiment(const ExperimentOptions& options);
 /// `registration`: what ICP makes of the scans with and without overlap in the utility, with and without convolution.
 [[nodiscard]] Experiment registration_experiment(const ExperimentOptions& options);

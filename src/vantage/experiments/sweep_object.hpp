@@ -12,7 +12,7 @@
 namespace vantage {
 
 /// An object that runs of a sweep scan. The simulator of it is built when the first run asks for it, so that a sweep
-/// that goes on where it was, or a rank that gets no run of it, does not pay for it.
+/// that resumes, or a rank that gets no run of it, does not pay for it.
 class SweepObject {
  public:
   /// `size`: metres, largest side. `source`: where the mesh is from, for people.

@@ -75,7 +75,7 @@ void describe(RobotDescription& o, Field&& field) {
 [[nodiscard]] std::string absolute_packages(const std::string& text, const std::filesystem::path& from);
 
 /// Reads the robot that `options.robot` names into `options.robot_model`; nothing where it names none. Other keys of
-/// the file are the program's options: they set those of `options` that are not `given` by somebody else. Body radius,
+/// the file are the program's options: they set those of `options` that are not `given` otherwise. Body radius,
 /// workspace and obstacles of the options count for the robot too. Throws InputError with the file and the line.
 void load_robot(ReconstructOptions& options, const std::set<std::string>& given = {});
 

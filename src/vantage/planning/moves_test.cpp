@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// Reaches what lies above z = 0; its ways are `detour` times as long as the straight line to views of odd height
+/// Reaches what lies above z = 0; its paths are `detour` times as long as the straight line to views of odd height
 /// (millimetres), and there is none to the candidates given.
 class Climber : public RobotModel {
  public:
@@ -17,7 +17,7 @@ class Climber : public RobotModel {
   std::vector<View> walled_in;
 
   [[nodiscard]] std::unique_ptr<Mobility> among(const Surroundings&) const override {
-    return std::make_unique<Ways>(*this);
+    return std::make_unique<Paths>(*this);
   }
 
   [[nodiscard]] double length(const Vec3& from, const Vec3& to) const {
@@ -26,9 +26,9 @@ class Climber : public RobotModel {
   }
 
  private:
-  class Ways : public Mobility {
+  class Paths : public Mobility {
    public:
-    explicit Ways(const Climber& climber) : climber_(climber) {}
+    explicit Paths(const Climber& climber) : climber_(climber) {}
     [[nodiscard]] std::optional<std::string> why_unreachable(const View& view) const override {
       return view.position().z() > 0 ? std::nullopt : std::optional<std::string>("too low");
     }
@@ -139,10 +139,10 @@ TEST_F(MovesOfThePlanner, TheNextInRankIsWhatPlanningWithoutTheDiscardedViewGive
   for (; plan && views < 10; ++views) {
     const int gone = plan->best.candidate;
     plan = planner.next_in_rank(map, current, *std::move(plan), "jammed");
-    const auto anew = planner.next_best_view(map, current);
+    const auto again = planner.next_best_view(map, current);
     ASSERT_TRUE(plan);
-    ASSERT_TRUE(anew);
-    EXPECT_EQ(plan->best.candidate, anew->best.candidate);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(plan->best.candidate, again->best.candidate);
     EXPECT_EQ(plan->infeasible.back().candidate, gone);
     EXPECT_EQ(plan->infeasible.back().reason, "jammed");
   }

@@ -32,7 +32,7 @@ struct PlannerOptions {
   UtilityOptions factors;
   ReachOptions reach;
   /// The robot, besides `reach`: only views that it can reach are planned, each with the way there. None: a free flyer
-  /// whose ways are not asked for.
+  /// whose paths are not asked for.
   std::shared_ptr<const RobotModel> robot;
   /// What moves are counted by; by default orthodromic on a sphere and straight elsewhere. Asked for, `straight` and
   /// `path` give eq. 10 the cost of a move over that of the largest direct one among the feasible views; `path` without

@@ -16,7 +16,7 @@ namespace vantage {
 /// Blaer and Allen (2007): visible boundary voxels, that is unknown ones with an empty 6-neighbour.
 [[nodiscard]] Utility blaer_allen_utility();
 
-/// Every view of the candidates as likely, drawn anew with every seed; no view twice.
+/// Every view of the candidates as likely, drawn again with every seed; no view twice.
 [[nodiscard]] Utility random_utility();
 
 /// Always the view that is farthest, as an angle seen from the middle of the enclosure, from all scanned so far: a

@@ -166,10 +166,10 @@ TEST(FieldUtilities, DrawAndSpreadWithoutTheMap) {
   const VisibilityEvaluator visibility(row.map);
   std::vector<ViewToJudge> views(3);
   const Vec3 center = row.map.enclosure_center();
-  const Vec3 ways[] = {Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitX()};
+  const Vec3 directions[] = {Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitX()};
   for (int i = 0; i < 3; ++i) {
     views[static_cast<std::size_t>(i)].candidate = i;
-    views[static_cast<std::size_t>(i)].view = view_towards(center + ways[i], center);
+    views[static_cast<std::size_t>(i)].view = view_towards(center + directions[i], center);
   }
   const std::vector<View> scanned{views[0].view};
   const Choice choice{row.map, visibility, row.camera, views[0].view, scanned, 7, views};

@@ -180,7 +180,7 @@ describe("LiveClient", () => {
     expect(t.runs.map(([, same]) => same)).toEqual([false, false]);
   });
 
-  it("connects anew when nothing is heard for 40 s", async () => {
+  it("connects again when nothing is heard for 40 s", async () => {
     const t = setUp();
     t.answers.push(document(1, 5));
     t.last().send("hello", { run: "a", revision: 5 });
@@ -242,7 +242,7 @@ describe("LiveClient", () => {
     expect(t.connections.at(-1)).toBe("live");
   });
 
-  it("reads the run anew where an event is not as documented", async () => {
+  it("reads the run again where an event is not as documented", async () => {
     for (const [kind, data] of [["scan", "{"], ["scan", '{"scan": 7}'], ["state", '{"state": "asleep"}'], ["plan", "[]"], ["result", '{"cloud": 3}']]) {
       const t = setUp();
       t.answers.push(document(1, 5), document(2, 6));

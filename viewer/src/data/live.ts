@@ -99,7 +99,7 @@ export class LiveClient {
     this.drop();
   }
 
-  /** Connects anew at once, for example after the computer slept. */
+  /** Connects again at once, for example after the computer slept. */
   wake(): void {
     if (!this.closed) this.connect();
   }

@@ -1,4 +1,4 @@
-/** Whatever stands in a document: it is read, or refused in words that name the field. */
+/** Whatever a document holds: it is read, or refused in words that name the field. */
 import { describe, expect, it } from "vitest";
 import { experimentFixture } from "../../fixtures/experiment.ts";
 import { mugRun } from "../../fixtures/mug_run.ts";

@@ -49,7 +49,7 @@ describe("visibleFaces", () => {
     expect(hidden).toBeGreaterThan(100);
   });
 
-  it("leaves out what stands in a closed box, and shows it where the box is cut open", () => {
+  it("leaves out what is inside a closed box, and shows it where the box is cut open", () => {
     // A faded voxel in the middle of a solid box of three.
     const box = new Uint8Array(27).fill(1);
     box[13] = 4;

@@ -23,7 +23,7 @@ export function faceAxes(direction: number): [number, number] {
   return direction & 1 ? [(axis + 1) % 3, (axis + 2) % 3] : [(axis + 2) % 3, (axis + 1) % 3];
 }
 
-// What stands in a cell. The voxels have two cells around them: an open one, then a wall that ends every walk.
+// What a cell holds. The voxels have two cells around them: an open one, then a wall that ends every walk.
 const [HIDDEN, FADED, SOLID, WALL] = [0, 1, 2, 3];
 const KIND = 3;
 /** Added where light from outside gets in. */

@@ -16,7 +16,7 @@ export class Session {
     this.history = new MapHistory(run);
   }
 
-  /** Shows another run or the same one read anew. The slider follows if it stood at the end. */
+  /** Shows another run or the same one read again. The slider follows if it stood at the end. */
   replace(run: Run, sameRun: boolean): void {
     const followed = this.store.state.step >= this.run.scans.length - 1;
     this.run = run;
@@ -37,7 +37,7 @@ export class Session {
     this.store.refresh();
   }
 
-  /** True once after the run was replaced: layers that belong to it must be built anew. */
+  /** True once after the run was replaced: layers that belong to it must be built again. */
   takeNewRun(): boolean {
     const was = this.fresh;
     this.fresh = false;

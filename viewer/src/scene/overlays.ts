@@ -1,4 +1,4 @@
-/** What stands around and in the voxels: path, frustum, normals, slice, cloud and surfaces. Built anew when they change. */
+/** What is around and inside the voxels: path, frustum, normals, slice, cloud and surfaces. Built again when they change. */
 import * as THREE from "three";
 import { OCCUPIED, type Camera, type Cloud, type Grid, type Mesh, type Pose, type Scan, type Vec3 } from "../data/run.ts";
 import type { MapState } from "../data/history.ts";

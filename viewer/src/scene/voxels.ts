@@ -148,7 +148,7 @@ export class VoxelLayer {
     this.dropPoints();
   }
 
-  /** Colours anew, same faces. */
+  /** New colours, same faces. */
   paint(color: VoxelColor): void {
     for (const mesh of this.solid) mesh.paint(color, 255);
     for (const mesh of this.faded) mesh.paint(color, FADED);
