@@ -70,6 +70,11 @@ list(FILTER vantage_app_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(vantage ${vantage_app_sources})
 target_link_libraries(vantage PRIVATE vantage_experiments vantage_doctor vantage_server vantage_build_settings fmt::fmt CLI11::CLI11)
 target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
+# `vantage --version` says from which commit it was built, where that is known.
+execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} rev-parse --short=12 HEAD
+  OUTPUT_VARIABLE vantage_commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/vantage/main.cpp PROPERTIES
+  COMPILE_DEFINITIONS VANTAGE_COMMIT="${vantage_commit}" SKIP_UNITY_BUILD_INCLUSION ON)
 vantage_unity(vantage)
 set_target_properties(vantage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 

@@ -40,3 +40,20 @@ endif()
 vantage_check(Consumer.EmbedsTheSource ${consumer} -DSOURCE=${PROJECT_SOURCE_DIR}
               -DWORK=${PROJECT_BINARY_DIR}/consumer/embedded ${check})
 set_tests_properties(Consumer.EmbedsTheSource PROPERTIES LABELS slow)
+# The listings of the README, against the package that the consumer test before it has installed.
+if(TARGET vantage_python)
+  add_test(NAME Readme.ListingsRun COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/cli/readme_test.py
+    $<TARGET_FILE:vantage> ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_BINARY_DIR}/python
+    ${PROJECT_BINARY_DIR}/consumer/session/prefix)
+  set_tests_properties(Consumer.KeepsASessionWithoutTheSimulation PROPERTIES FIXTURES_SETUP installed_session)
+  set_tests_properties(Readme.ListingsRun PROPERTIES LABELS default TIMEOUT 600 FIXTURES_REQUIRED installed_session)
+endif()
+
+# Packages in a fresh Debian, and a wheel in a fresh virtual environment.
+if(VANTAGE_APPS AND TARGET vantage_python)
+  add_test(NAME Packages.InstallRunAndLeave
+    COMMAND ${PROJECT_SOURCE_DIR}/tests/packages/check.sh ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
+  add_test(NAME Packages.Wheel
+    COMMAND ${PROJECT_SOURCE_DIR}/tests/packages/pip_check.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/wheel)
+  set_tests_properties(Packages.InstallRunAndLeave Packages.Wheel PROPERTIES LABELS slow TIMEOUT 2400 SKIP_RETURN_CODE 77)
+endif()

@@ -33,8 +33,19 @@ foreach(file __init__.py __init__.pyi py.typed)
     COPY_ON_ERROR SYMBOLIC)
 endforeach()
 
-if(VANTAGE_INSTALL)
-  install(TARGETS vantage_python LIBRARY DESTINATION ${vantage_python_folder}/vantage)
+if(VANTAGE_INSTALL AND NOT VANTAGE_WHEEL)
+  # Packages for Debian go where its interpreter looks; decided when it is installed, because the prefix is known then.
+  install(CODE "set(vantage_python_folder \"${vantage_python_folder}\")
+    if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\" AND \"${VANTAGE_PYTHON_DIR}\" STREQUAL \"\")
+      set(vantage_python_folder lib/python3/dist-packages)
+    endif()" COMPONENT python)
+  install(TARGETS vantage_python LIBRARY DESTINATION "\${vantage_python_folder}/vantage" COMPONENT python)
   install(FILES python/vantage/__init__.py python/vantage/__init__.pyi python/vantage/py.typed
-    DESTINATION ${vantage_python_folder}/vantage)
+    DESTINATION "\${vantage_python_folder}/vantage" COMPONENT python)
+endif()
+
+# A wheel (setup.py) holds the module and the program, side by side in the package's folder, and nothing else.
+if(VANTAGE_WHEEL)
+  install(TARGETS vantage_python LIBRARY DESTINATION vantage)
+  install(TARGETS vantage RUNTIME DESTINATION vantage/bin)
 endif()

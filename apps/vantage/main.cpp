@@ -30,6 +30,12 @@ std::string unknown_command(const CLI::App& program, int argc, char** argv) {
   return vantage::concat("'", argv[1], "' is no command", nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 
+/// "0.2.0 (commit 123456789abc)"; without the commit where it was not known to the build.
+std::string version_text() {
+  const std::string commit = VANTAGE_COMMIT;
+  return commit.empty() ? VANTAGE_VERSION : vantage::concat(VANTAGE_VERSION, " (commit ", commit, ")");
+}
+
 /// Writes man pages and completions for the packages; not a command that people need, so no help mentions it.
 void add_manual(CLI::App& program) {
   auto folder = std::make_shared<std::string>();
@@ -54,7 +60,7 @@ int run(int argc, char** argv) {
   CLI::App program(
       "Vantage plans where a depth sensor should look next, so that an unknown object is scanned completely.");
   program.name("vantage");
-  program.set_version_flag("--version", VANTAGE_VERSION);
+  program.set_version_flag("--version", version_text());
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::help);
   vantage::app::add_reconstruct(program);
