@@ -5,7 +5,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME vantage)
 set(CPACK_PACKAGE_VENDOR "Vantage")
-set(CPACK_PACKAGE_CONTACT "Vantage developers <vantage@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "Vantage developers <vantage@users.noreply.github.com>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -23,19 +23,17 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME vantage)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "next-best-view planning for 3D scanning
- Vantage plans where a depth sensor should look next, so that an unknown object
- is scanned completely with few views. It takes depth images or clouds with
- poses, registers them, prints the next view with its reason, keeps sessions
- over hours and restarts, serves them over HTTP, and shows everything in a
- browser.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Vantage plans where a depth sensor should look next, so that an unknown object
+is scanned completely with few views. It takes depth images or clouds with
+poses, registers them, prints the next view with its reason, keeps sessions
+over hours and restarts, serves them over HTTP, and shows everything in a
+browser.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libvantage-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_DESCRIPTION "next-best-view planning for 3D scanning - development files
- Headers, static libraries and the CMake package of Vantage:
- find_package(vantage COMPONENTS session) and target_link_libraries(robot
- vantage::session).")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers, static libraries and the CMake package of Vantage:
+find_package(vantage COMPONENTS session) and target_link_libraries(robot
+vantage::session).")
 # A static library needs what its headers and its CMake package ask for.
 file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/debian-packages.txt vantage_package_lines)
 set(vantage_dev_packages)
@@ -56,9 +54,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
 math(EXPR vantage_next_python "${Python_VERSION_MINOR} + 1")
 string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", python3 (<< ${Python_VERSION_MAJOR}.${vantage_next_python})")
-set(CPACK_DEBIAN_PYTHON_DESCRIPTION "next-best-view planning for 3D scanning - Python module
- The Vantage library with numpy arrays in and out: planning, registration,
- simulation and sessions.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The Vantage library with numpy arrays in and out: planning, registration,
+simulation and sessions.")
 
 # What Debian's policy wants in /usr/share/doc/PACKAGE, for each of the packages.
 set(vantage_package_texts ${PROJECT_BINARY_DIR}/package-texts)
@@ -73,7 +70,7 @@ file(CONFIGURE OUTPUT ${vantage_package_texts}/changelog.Debian @ONLY CONTENT
 
   * Packages of the project's own build; CHANGELOG.md says what is new.
 
- -- Vantage developers <vantage@localhost.localdomain>  @VANTAGE_RELEASE_DATE@
+ -- Vantage developers <vantage@users.noreply.github.com>  @VANTAGE_RELEASE_DATE@
 ")
 find_program(VANTAGE_GZIP gzip REQUIRED)
 execute_process(COMMAND ${VANTAGE_GZIP} -9nkf ${vantage_package_texts}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
