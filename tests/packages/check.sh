@@ -36,7 +36,7 @@ cp "${packages[@]}" "$root/packages/"
 inside apt-get update -qq
 inside sh -c 'apt-get install -y -qq --no-install-recommends /packages/vantage_*.deb /packages/python3-vantage_*.deb >/dev/null'
 
-inside sh -c 'cd /root && vantage --version && vantage reconstruct mug --quiet && test -s runs/mug/report.html && test -s runs/mug/mesh.ply'
+inside sh -c 'cd && vantage --version && vantage reconstruct mug --quiet && test -s runs/mug/report.html && test -s runs/mug/mesh.ply'
 inside python3 -c 'import vantage; print("Python module", vantage.__version__)'
 for file in /usr/share/man/man1/vantage.1.gz /usr/share/man/man1/vantage-plan.1.gz \
   /usr/share/bash-completion/completions/vantage /usr/share/zsh/vendor-completions/_vantage \
@@ -46,11 +46,11 @@ done
 
 inside sh -c 'apt-get install -y -qq --no-install-recommends cmake ninja-build g++ systemd /packages/libvantage-dev_*.deb >/dev/null'
 inside systemd-analyze verify /lib/systemd/system/vantage-serve@.service
-cp -r "$source/tests/consumer" "$root/root/consumer"
-inside sh -c 'cd /root && cmake -G Ninja -S consumer -B build -DVANTAGE_SESSION=ON >/dev/null && cmake --build build >/dev/null && ./build/session'
+mkdir "$root/trial"; cp -r "$source/tests/consumer" "$root/trial/consumer"
+inside sh -c 'cd /trial && cmake -G Ninja -S consumer -B build -DVANTAGE_SESSION=ON >/dev/null && cmake --build build >/dev/null && ./build/session'
 
 inside sh -c 'apt-get purge -y -qq vantage python3-vantage libvantage-dev >/dev/null'
 left=$(inside find /usr /etc /lib -path '*vantage*' 2>/dev/null || true)
 [ -z "$left" ] || { echo "left behind after the purge:"; echo "$left"; exit 1; }
-inside test -s /root/runs/mug/report.html
+inside sh -c 'test -s ~/runs/mug/report.html'
 echo "installed, ran and removed"
