@@ -43,7 +43,7 @@ struct Connection {
 
   beast::tcp_stream stream;
   beast::flat_buffer buffer{longest_head + piece};
-  bool is_let_in = false;  // others make room for new ones
+  bool is_let_in = false;  // it is decided what becomes of its request; others make room for new ones
   bool wants_body = true;  // false: HEAD
 };
 
@@ -108,9 +108,9 @@ class HttpConnections::Network {
 
   awaitable<void> serve(Shared connection, bool is_full);
   awaitable<void> answer_request(Connection& c);
-  /// An answer where the request is refused.
+  /// An answer where the request is refused. What is decided after the body goes into `decision`.
   awaitable<std::optional<HttpAnswer>> answer_body(Connection& c, Parser& parser, const HttpHead& head,
-                                                   const HttpDecision& decision);
+                                                   HttpDecision& decision);
   awaitable<std::optional<HttpAnswer>> read_body(Connection& c, http::request_parser<http::string_body>& parser,
                                                  std::size_t max);
   awaitable<void> refuse(Connection& c, HttpAnswer answer);
@@ -266,7 +266,7 @@ awaitable<void> HttpConnections::Network::answer_request(Connection& c) {
   c.wants_body = head.method != "HEAD";
   HttpDecision decision = decide_(head);
   std::optional<HttpAnswer> refused = decision.answer;
-  c.is_let_in = !refused;
+  c.is_let_in = !refused && !decision.after_body;
   if (decision.events != nullptr) {
     co_await send_events(c, *decision.events, decision.cookie);
   } else if (!refused) {
@@ -278,7 +278,7 @@ awaitable<void> HttpConnections::Network::answer_request(Connection& c) {
 
 awaitable<std::optional<HttpAnswer>> HttpConnections::Network::answer_body(Connection& c, Parser& parser,
                                                                            const HttpHead& head,
-                                                                           const HttpDecision& decision) {
+                                                                           HttpDecision& decision) {
   const std::size_t announced =
       parser.chunked() ? decision.max_body : static_cast<std::size_t>(parser.content_length().value_or(0));
   if (announced > decision.max_body) co_return too_long(decision.max_body);
@@ -294,10 +294,17 @@ awaitable<std::optional<HttpAnswer>> HttpConnections::Network::answer_body(Conne
   if (asks_first && !co_await write(c, "HTTP/1.1 100 Continue\r\n\r\n")) co_return std::nullopt;
   auto refused = co_await read_body(c, whole, decision.max_body);
   if (refused) co_return refused;
+  const std::string cookie = decision.cookie;
+  if (decision.after_body) {
+    HttpDecision decided = decision.after_body();
+    decision = std::move(decided);
+  }
+  if (decision.answer) co_return decision.answer;
+  c.is_let_in = true;
   const HttpRequest read{head.query, head.content_type, head.boundary, std::move(whole.get().body())};
   const std::function<HttpAnswer()> handle = [&] { return decision.handle(read); };
   HttpAnswer given = co_await workers_.run(handle);
-  co_await send(c, std::move(given), decision.cookie);
+  co_await send(c, std::move(given), cookie);
   co_return std::nullopt;
 }
 

@@ -10,12 +10,13 @@
 
 namespace vantage {
 
-/// What becomes of a request: an answer at once (its body is not wanted then), the events of a run, or what `handle`
-/// answers to its body.
+/// What becomes of a request: an answer at once (its body is not wanted then), the events of a run, what `handle`
+/// answers to its body, or what is decided when its body is there.
 struct HttpDecision {
   std::optional<HttpAnswer> answer = {};
   LiveRun* events = nullptr;
   std::function<HttpAnswer(const HttpRequest&)> handle = {};
+  std::function<HttpDecision()> after_body = {};
   std::size_t max_body = 0;          // bytes
   std::string cookie = {};           // for Set-Cookie
   std::shared_ptr<void> place = {};  // let go when the request is over
@@ -24,7 +25,7 @@ struct HttpDecision {
 /// The connections of an HTTP server. One thread reads heads and bodies and writes answers, for all clients and never
 /// waiting for one; handlers run in threads of their own. So a slow client costs a socket and some kilobytes, for a
 /// limited time: heads have a longest length and time, bodies too, and the sum of all bodies is limited. Where all
-/// connections are taken, the one that has waited longest without being let in makes room.
+/// connections are taken, the oldest of those whose request is not decided on yet makes room.
 class HttpConnections {
  public:
   using Decide = std::function<HttpDecision(const HttpHead&)>;

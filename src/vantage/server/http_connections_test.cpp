@@ -188,6 +188,21 @@ TEST(HttpConnections, ClientsThatSayNothingKeepNobodyOut) {
   EXPECT_LT(seconds_since(begin), 2);
 }
 
+TEST(HttpConnections, WhoSendsABodySlowlyTakesNoPlaceFromOthers) {
+  ServedRoutes s(HttpServerOptions{.max_connections = 40, .timeout = 60});
+  const std::string head = "POST /echo HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n";
+  std::vector<Raw> slow;
+  for (int i = 0; i < 100; ++i) {
+    slow.emplace_back(s.server);
+    slow.back().send(head + "Content-Length: 100\r\n\r\n{");
+  }
+  for (int i = 0; i < 20; ++i) {
+    Raw client(s.server);
+    client.send(head + "Content-Length: 2\r\n\r\n{}");
+    EXPECT_THAT(client.receive(), testing::EndsWith("{}"));
+  }
+}
+
 TEST(HttpConnections, WhoIsLetInIsNotThrownOutForOthers) {
   ServedRoutes s(HttpServerOptions{.max_connections = 3, .max_listeners = 2, .timeout = 60});
   s.holds = true;

@@ -13,6 +13,8 @@
 namespace vantage {
 namespace {
 
+constexpr std::size_t small_body = std::size_t{64} * 1024;  // bytes
+
 std::optional<HttpRoute::Method> method_of(const HttpHead& head) {
   if (head.method == "GET" || head.method == "HEAD") return HttpRoute::Method::get;
   if (head.method == "POST") return HttpRoute::Method::post;
@@ -117,6 +119,14 @@ struct HttpServer::Routes {
     if (route.method == HttpRoute::Method::post && head.content_type != route.body_type)
       return {.answer =
                   HttpAnswer::error(415, concat("Content-Type = ", head.content_type, ": must be ", route.body_type))};
+    // A small body takes no place before it is there, so that those who send it slowly take none from others.
+    if (route.max_body <= small_body)
+      return {.after_body = [&served] { return entering(served); }, .max_body = route.max_body};
+    return entering(served);
+  }
+
+  [[nodiscard]] static HttpDecision entering(const Served& served) {
+    const HttpRoute& route = served.route;
     auto place = take_place(served.now, route.at_once);
     if (!place)
       return {.answer = HttpAnswer::error(503, concat(route.path, ": at most ", route.at_once,

@@ -45,16 +45,18 @@ struct HttpRoute {
   std::function<HttpAnswer(const HttpRequest&)> handle = {};
   std::string body_type = "application/json";     // of a POST; browsers send it across sites only where they may
   std::size_t max_body = std::size_t{64} * 1024;  // bytes
-  int at_once = 0;                                // requests under way at a time, others get 503; 0: no limit
+  int at_once = 0;                                // requests answered at a time, others get 503; 0: no limit
 };
 
 struct HttpServerOptions {
   std::string host = "127.0.0.1";  // address to listen at
   int port = 0;                    // 0: any free one
   std::string token = {};          // who knows it may come in; empty: everybody, on a loopback address only
-  int max_connections = 256;       // at a time; who has not asked for anything yet makes room for who comes
-  int max_listeners = 32;          // to events, at a time
-  int max_workers = 64;            // threads that answer requests
+  /// At a time; one of which it is not known yet what it wants makes room for who comes. More than all routes with long
+  /// answers give at once, or else those who take them slowly keep others out.
+  int max_connections = 512;
+  int max_listeners = 32;                                // to events, at a time
+  int max_workers = 64;                                  // threads that answer requests
   std::size_t max_body_bytes = std::size_t{512} << 20U;  // of all requests that are read or answered, in sum
   int timeout = 5;     // seconds that the head of a request may take, and every 64 KiB after it in either direction
   int body_time = 60;  // seconds that the body of a request may take
