@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/files/text_reader.hpp"
 #include "vantage/options/options.hpp"
 
 namespace vantage::app {
@@ -36,7 +38,10 @@ inline void add_options(CLI::App& command, const std::vector<OptionField>& field
   command.add_option_function<std::string>(
       "--config",
       [fields, also_known](const std::string& path) {
-        set_options_from_yaml(fields, read_file(path), path, also_known);
+        const std::string text = read_file(path);
+        // A full disk leaves such files: defaults are not what anybody means by one.
+        require(!trimmed(text).empty(), path, ": is empty; must have lines 'option: value', or leave --config out");
+        set_options_from_yaml(fields, text, path, also_known);
       },
       "YAML file with options; see `vantage config`");
   for (const OptionField& field : fields) {

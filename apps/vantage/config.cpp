@@ -3,9 +3,13 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "current_place.hpp"
+#include "vantage/doctor/doctor.hpp"
+#include "vantage/experiments/experiments.hpp"
 #include "vantage/model/from_scans.hpp"
 #include "vantage/options/options.hpp"
 #include "vantage/options/reconstruct_options.hpp"
+#include "vantage/options/robot_file.hpp"
 #include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage::app {
@@ -36,8 +40,17 @@ void add_config(CLI::App& program) {
           "and an option of the command line with `--` before it.\n\n");
     }
     print_section("vantage reconstruct", option_fields(reconstruct), *markdown);
-    print_section("vantage plan: the scene", option_fields(plan), *markdown);
+    print_section("vantage plan, vantage session new: the scene", option_fields(plan), *markdown);
     print_section("vantage plan: reading scans", option_fields(folder), *markdown);
+    CurrentPlace place;
+    print_section("vantage evaluate: also those of reconstruct that decide how a view is planned", option_fields(place),
+                  *markdown);
+    DoctorOptions doctor;
+    print_section("vantage doctor", option_fields(doctor), *markdown);
+    ExperimentOptions experiment;
+    print_section("vantage experiment", option_fields(experiment), *markdown);
+    RobotDescription robot;
+    print_section("A robot's file (--robot)", option_fields(robot), *markdown);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli_options.hpp"
 #include "commands.hpp"
+#include "notes.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
 
@@ -51,9 +52,9 @@ void doctor(const DoctorRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   const bool shows_progress = !request.program.quiet && isatty(STDERR_FILENO) != 0;
   const Diagnosis diagnosis = examine(request.scans, request.options, [&](const std::string& what) {
-    if (shows_progress) fmt::print(stderr, "\r\033[K{}", what);
+    if (shows_progress) print_note("\r\033[K{}", what);
   });
-  if (shows_progress) fmt::print(stderr, "\r\033[K");
+  if (shows_progress) print_note("\r\033[K");
   if (request.program.json) {
     fmt::print("{}\n", diagnosis_json(diagnosis).dump(2));
   } else {

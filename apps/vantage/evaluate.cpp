@@ -6,6 +6,9 @@
 
 #include "cli_options.hpp"
 #include "commands.hpp"
+#include "cost_note.hpp"
+#include "current_place.hpp"
+#include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
@@ -17,19 +20,10 @@
 namespace vantage::app {
 namespace {
 
-struct Place {
-  Vec3 current{0, 0, 2};
-};
-
-template <class Field>
-void describe(Place& place, Field&& field) {
-  field("current", place.current, "m", "where the sensor is now");
-}
-
 struct EvaluateRequest {
   std::string map;
   int top = 10;
-  Place place;
+  CurrentPlace place;
   ReconstructOptions options;
   std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
@@ -82,6 +76,10 @@ void evaluate(EvaluateRequest& request) {
   const VoxelMap map = read_map(request.map);
   const Planner planner(candidates_from_text(request.options.candidates, map.enclosure_center()),
                         request.options.range_camera(), request.options.planner_options());
+  const Resolution rays = planner.options().rays.kind == RayChoice::Kind::fixed ? planner.options().rays.resolution
+                                                                                : planner.camera().resolution;
+  const std::string cost = cost_note(planner.candidates().views.size(), rays);
+  if (!cost.empty() && !request.program.quiet) print_note("{}\n", cost);
   const View current{Pose(Eigen::Translation3d(request.place.current))};
   const std::vector<Evaluation> evaluations = evaluate_all(map, planner, current);
   if (request.program.json) {

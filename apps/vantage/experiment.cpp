@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "executable_digest.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "program_options.hpp"
 #include "program_ranks.hpp"
 #include "vantage/core/error.hpp"
@@ -24,6 +25,7 @@ namespace {
 struct ExperimentRequest {
   std::string name;
   std::string out = "runs/experiments";
+  bool overwrite = false;
   ExperimentOptions options;
   ProgramOptions program;
 };
@@ -41,12 +43,12 @@ class ProgressLine {
     if (!is_terminal_ && !is_due) return;
     next_ = progress.seconds + 60;
     const std::size_t finished = progress.done + progress.failed;
-    fmt::print(stderr, "{}{} stored, {} done, {} failed, {} remaining, {} left{}", is_terminal_ ? "\r" : "",
-               progress.stored, progress.done, progress.failed, progress.remaining,
+    print_note("{}{} stored, {} done, {} failed, {} remaining, {} left{}", is_terminal_ ? "\r" : "", progress.stored,
+               progress.done, progress.failed, progress.remaining,
                finished == 0 ? "? s" : span_of_time(progress.seconds_left), is_terminal_ ? "      " : "\n");
   }
   void end() const {
-    if (is_terminal_) fmt::print(stderr, "\n");
+    if (is_terminal_) print_note("\n");
   }
 
  private:
@@ -98,12 +100,13 @@ std::optional<std::vector<RunResult>> sweep(const ExperimentRequest& request, st
     }
     ProgressLine line;
     if (!request.program.quiet) control.progress = std::ref(line);
-    const RunStore store(request.out, fmt::format("vantage {} {}", VANTAGE_VERSION, executable_digest()));
+    const RunStore store(request.out, fmt::format("vantage {} {}", VANTAGE_VERSION, executable_digest()),
+                         request.overwrite ? ForeignFiles::overwrite : ForeignFiles::refuse);
     std::vector<RunResult> results = run_sweep(runs, store, ranks, control);
     if (!request.program.quiet) line.end();
     return results;
   } catch (const std::exception& error) {
-    if (ranks.size() > 1) fmt::print(stderr, "vantage, rank {}: {}\n", ranks.rank(), error.what());
+    if (ranks.size() > 1) print_note("vantage, rank {}: {}\n", ranks.rank(), error.what());
     ranks.give_up();
     throw;
   }
@@ -143,6 +146,8 @@ void add_experiment(CLI::App& program) {
   command
       ->add_option("--out", request->out, "folder for runs, CSV, JSON and report.html; a sweep that was ended goes on")
       ->capture_default_str();
+  command->add_flag("--overwrite", request->overwrite,
+                    "write into --out although it holds files that no experiment wrote");
   add_options(*command, request->options);
   add_program_options(*command, request->program);
   command->callback([request] { experiment(*request); });

@@ -28,7 +28,7 @@ const std::vector<Group>& groups_of_scans() {
        {"--depth-scale", "--depth-range", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye", "--sensor"}},
       {"Registration", {"--registration", "--pose-error", "--pose-angle-error"}},
       {"Planning", {"--utility", "--workspace", "--robot", "--deadline"}},
-      {"Output", {"--out", "--report", "--top", "--json", "--config"}}};
+      {"Output", {"--out", "--overwrite", "--report", "--top", "--json", "--config"}}};
   return groups;
 }
 
@@ -38,7 +38,7 @@ CommandHelp help_of(const std::string& command) {
              {"Planning", {"--utility", "--search", "--robot", "--workspace", "--max-views", "--seed"}},
              {"Robot that misses",
               {"--positioning-error", "--orientation-error", "--registration", "--convolve", "--believed-error"}},
-             {"Output", {"--out", "--report", "--serve", "--config"}}},
+             {"Output", {"--out", "--overwrite", "--report", "--serve", "--config"}}},
             "vantage reconstruct mug --out runs/mug"};
   }
   if (command == "plan") {

@@ -9,8 +9,10 @@
 #include "commands.hpp"
 #include "help.hpp"
 #include "manual.hpp"
+#include "notes.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/options/options.hpp"
 
 namespace {
@@ -98,13 +100,16 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  vantage::app::prepare_standard_streams();
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    vantage::app::finish_standard_output();
+    return code;
   } catch (const vantage::InputError& error) {
-    std::cerr << "vantage: " << error.what() << '\n';
+    std::cerr << "vantage: " << vantage::printable(error.what()) << '\n';
     return misuse;
   } catch (const std::exception& error) {
-    std::cerr << "vantage: " << error.what() << '\n';
+    std::cerr << "vantage: " << vantage::printable(error.what()) << '\n';
     return failure;
   }
 }

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/server/admission.hpp"
 #include "vantage/server/random_name.hpp"
@@ -54,11 +55,11 @@ std::unique_ptr<HttpServer> page_server(const PageServerOptions& options, LiveRu
 
 void start_and_tell(HttpServer& server) {
   server.start();
-  fmt::print(stderr, "the page is at {}\n", server.url());
+  print_note("the page is at {}\n", server.url());
 }
 
 void wait_for_interrupt(const std::function<void()>& meanwhile) {
-  fmt::print(stderr, "Ctrl-C ends it\n");
+  print_note("Ctrl-C ends it\n");
   while (!was_interrupted()) {
     meanwhile();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -7,6 +7,7 @@
 #include "clock.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
@@ -24,24 +25,33 @@ struct PlanRequest {
   std::string scans;
   std::string out;
   int top = 10;
+  bool overwrite = false;
   bool report = true;
   ScanPlanningOptions options;
   std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
 };
 
-RunDescription describe_run(PlanRequest& request, const Planner& planner, const ScanScene& fitted) {
+RunDescription describe_run(PlanRequest& request, const RangeCamera& camera) {
   RunDescription description;
   description.command = "plan";
-  description.object = std::filesystem::path(request.scans).lexically_normal().stem().string();
+  description.object = std::filesystem::path(name_of_folder(request.scans)).stem().string();
   description.program = VANTAGE_VERSION;
   const std::vector<OptionField> fields = option_fields(request.options);
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
   description.config = "# vantage plan " + request.scans + "\n" + options_as_yaml(fields);
-  description.camera = planner.camera();
-  description.candidates = planner.candidates();
-  description.candidates_text = fmt::format("sphere:{}:{:.3f}", request.options.scene.views, fitted.radius);
+  description.camera = camera;
   return description;
+}
+
+/// What an earlier run left in the output folder is removed, and these scans may be of one.
+void require_apart(const std::filesystem::path& scans, const std::filesystem::path& out) {
+  const std::filesystem::path read = std::filesystem::weakly_canonical(scans);
+  for (const char* below : {"", "scans"}) {
+    const std::filesystem::path written = std::filesystem::weakly_canonical(out / below);
+    require(read != written && read.parent_path() != written, "out = ", out.string(),
+            ": holds the scans that are read, ", scans.string(), "; choose another folder");
+  }
 }
 
 void plan(PlanRequest& request) {
@@ -53,23 +63,34 @@ void plan(PlanRequest& request) {
   const ScanSet set = open_scans(request.scans, request.options.reading);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
-  const ScanScene fitted = fit_scene(pending, request.options.scene);
-  Planner planner = request.options.planner(fitted.candidates(request.options.scene.views), set.camera);
-  const RunDescription description = describe_run(request, planner, fitted);
+  ScanScene fitted = fit_scene(pending, request.options.scene);
+  request.options.require_can_plan(fitted.scene);
+  const RunDescription description = describe_run(request, request.options.camera(set.camera));
   std::optional<RunFolder> folder;
-  if (!request.out.empty()) folder.emplace(request.out, description);
+  if (!request.out.empty()) {
+    require_apart(request.scans, request.out);
+    folder.emplace(request.out, description, request.overwrite ? ForeignFiles::overwrite : ForeignFiles::refuse);
+  }
 
   const std::unique_ptr<Registrar> registrar = make_registrar(request.options.scene, fitted);
   ScanModel scans(fitted);
   catch_interrupts();
   for (const PendingScan& each : pending) {
-    if (was_interrupted()) break;
+    if (was_interrupted())
+      throw Error(fmt::format("interrupted after {} of {} scans; nothing was planned", scans.model().scans.size(),
+                              pending.size()));
     const Scan scan = each.read();
     const ScanRecord& record = scans.add({.name = each.name}, scan, each.believed, *registrar);
-    if (!request.program.quiet) print_record(stderr, record);
+    if (!request.program.quiet) print_note("{}", record_line(record));
     if (folder) folder->add_scan(record, scan, scans.model(), nullptr);
   }
 
+  if (!request.options.scene.radius) fitted.radius = scans.sensor_distance();
+  Planner planner = request.options.planner(fitted.candidates(request.options.scene.views), set.camera);
+  if (folder) {
+    folder->set_candidates(planner.candidates(),
+                           fmt::format("sphere:{}:{:.3f}", request.options.scene.views, fitted.radius));
+  }
   tell_of_scans(planner, scans.model().scans);
   const std::optional<Plan> next = planner.next_best_view(scans.model().map, scans.current());
   RunSummary summary;
@@ -96,6 +117,8 @@ void add_plan(CLI::App& program) {
       ->required();
   command->add_option("--out", request->out,
                       "folder for the model, the map and the report; nothing is written without");
+  command->add_flag("--overwrite", request->overwrite,
+                    "write into --out although it holds other files, and replace those of the same names");
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
   command->add_flag("--report,!--no-report", request->report, "write mesh.ply and report.html");
   add_options(*command, noting(option_fields(request->options), request->given));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "vantage/files/plain_text.hpp"
 #include "vantage/runs/run_files.hpp"
 
 namespace vantage::app {
@@ -61,20 +62,19 @@ void print_views(std::vector<Evaluation> evaluations, const PlanTableOptions& op
   }
   if (options.verbose) {
     for (const Evaluation& e : evaluations) {
-      if (!e.feasible) fmt::print("{:>5} not feasible: {}\n", e.candidate, e.reason);
+      if (!e.feasible) fmt::print("{:>5} not feasible: {}\n", e.candidate, printable(e.reason));
     }
     return;
   }
   const std::vector<std::string> infeasible = infeasible_by_reason(evaluations);
   if (!infeasible.empty()) fmt::print("not feasible (--verbose lists each view):\n");
-  for (const std::string& line : infeasible) fmt::print("  {}\n", line);
+  for (const std::string& line : infeasible) fmt::print("  {}\n", printable(line));
 }
 
-void print_record(std::FILE* out, const ScanRecord& record) {
-  fmt::print(
-      out,
+std::string record_line(const ScanRecord& record) {
+  return fmt::format(
       "{:<24} {:<20} overlap {:>5.1f} %  residual {:>6.2f} mm  moved {:>5.1f} mm {:>4.1f} deg  {:>5} new voxels{}\n",
-      record.reason, record.verdict, 100 * record.overlap, 1000 * record.residual,
+      printable(record.reason), record.verdict, 100 * record.overlap, 1000 * record.residual,
       1000 * (record.registered.position() - record.believed.position()).norm(),
       degrees(rotation_angle(record.registered.world_from_sensor.linear(), record.believed.world_from_sensor.linear())),
       record.new_occupied, record.merged ? "" : "  NOT MERGED");
@@ -93,7 +93,7 @@ void print_move(const Move& move) {
 
 void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, const PlanTableOptions& options) {
   if (!plan) {
-    fmt::print("nothing left to plan: {}\n", why_finished);
+    fmt::print("nothing left to plan: {}\n", printable(why_finished));
     return;
   }
   const std::array<double, 7> pose = pose_numbers(plan->best.view.world_from_sensor);

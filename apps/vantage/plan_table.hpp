@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +22,8 @@ void print_views(std::vector<Evaluation> evaluations, const PlanTableOptions& op
 /// workspace". Reasons that differ only in their numbers are one kind, whose numbers are printed as "…".
 [[nodiscard]] std::vector<std::string> infeasible_by_reason(const std::vector<Evaluation>& evaluations);
 
-/// One line on how a real scan was registered and what it brought.
-void print_record(std::FILE* out, const ScanRecord& record);
+/// One line, with its end, on how a real scan was registered and what it brought.
+[[nodiscard]] std::string record_line(const ScanRecord& record);
 
 /// The corner places of a move; joints in radians and metres.
 void print_move(const Move& move);

@@ -6,7 +6,9 @@
 #include "cli_options.hpp"
 #include "clock.hpp"
 #include "commands.hpp"
+#include "cost_note.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "object_source.hpp"
 #include "page_server.hpp"
 #include "program_options.hpp"
@@ -23,6 +25,7 @@ namespace {
 struct ReconstructRequest {
   std::string object;
   std::string out;
+  bool overwrite = false;
   bool report = true;
   std::string serve;  // the port; empty: not served
   PageServerOptions server;
@@ -32,8 +35,7 @@ struct ReconstructRequest {
 };
 
 void print_progress(const ScanRecord& record, const std::string& travel_unit) {
-  fmt::print(
-      stderr,
+  print_note(
       "scan {:>2}  view {:>4}  {:>6.2f} % of the visible surface  {:>5} new voxels  {:>6.2f} {}  {:>4.0f} ms  {}\n",
       record.scan + 1, record.candidate, 100 * record.coverage.value_or(0), record.new_occupied, record.distance,
       travel_unit, 1000 * record.timings.total(), record.merged ? record.reason : "NOT MERGED: " + record.verdict);
@@ -90,13 +92,24 @@ struct Audience {
     if (request.report) log.emplace(folder);
   }
 
+  /// The run goes on where they cannot be told.
   void tell(std::string_view event, const nlohmann::ordered_json& data) {
-    if (log) log->add(event, data);
+    try {
+      if (log) log->add(event, data);
+    } catch (const Error& error) {
+      print_note("vantage: {}; the run goes on without it\n", error.what());
+      log->remove();
+      log.reset();
+    }
     if (!server) return;
-    if (event == "run")
-      live.begin(data);
-    else
-      live.add(event, data);
+    try {
+      if (event == "run")
+        live.begin(data);
+      else
+        live.add(event, data);
+    } catch (const std::exception& error) {
+      print_note("vantage: the page was not told of an event: {}\n", error.what());
+    }
   }
 };
 
@@ -122,11 +135,14 @@ void reconstruct(ReconstructRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   load_robot(request.options, request.given);
   request.options.validate();
+  const std::string cost =
+      cost_note(request.options.candidate_views().views.size(), request.options.range_camera().resolution);
+  if (!cost.empty() && !request.program.quiet) print_note("{}\n", cost);
   const ObjectSource source = find_object(request.object);
   const SimulatedObject object(source.mesh, request.options.size.value_or(source.default_size), request.options);
   RunFolder folder(
       request.out.empty() ? std::filesystem::path("runs") / source.name : std::filesystem::path(request.out),
-      describe_run(request, source.name, object));
+      describe_run(request, source.name, object), request.overwrite ? ForeignFiles::overwrite : ForeignFiles::refuse);
 
   catch_interrupts();
   Audience audience(request, folder.path());
@@ -159,6 +175,8 @@ void add_reconstruct(CLI::App& program) {
   command->add_option("object", request->object, "a built-in object (see `vantage objects`) or the path of a mesh")
       ->required();
   command->add_option("--out", request->out, "output folder; runs/OBJECT by default");
+  command->add_flag("--overwrite", request->overwrite,
+                    "write into --out although it holds other files, and replace those of the same names");
   command->add_flag("--report,!--no-report", request->report, "write mesh.ply and report.html");
   // A flag, so that a word after it is not taken for the port.
   command->add_flag("--serve{8350}", request->serve,

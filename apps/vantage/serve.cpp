@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "page_server.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/files/plain_text.hpp"
@@ -27,9 +28,9 @@ void serve_session(const ServeRequest& request) {
   LiveRun run;
   SessionService service(request.folder, run);
   const SessionStatus status = service.session().status();
-  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", printable(each));
+  for (const std::string& each : status.dropped) print_note("vantage: {}\n", printable(each));
   for (const auto& [number, reason] : status.left_out)
-    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, printable(reason));
+    print_note("vantage: left out scan {}, which is safe on disk: {}\n", number, printable(reason));
   const std::unique_ptr<HttpServer> server = page_server(request.server, run);
   service.add_routes(*server);
   catch_interrupts();

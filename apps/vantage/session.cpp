@@ -8,6 +8,7 @@
 #include "cli_options.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
@@ -30,15 +31,16 @@ struct SessionRequest {
   int top = 10;                     // next
   std::optional<int> skip, unskip;  // next
   std::string reason;               // next
+  bool overwrite = false;           // finish
   ProgramOptions program;
 };
 
 using Shared = std::shared_ptr<SessionRequest>;
 
 void tell_dropped(const SessionStatus& status) {
-  for (const std::string& each : status.dropped) fmt::print(stderr, "vantage: {}\n", printable(each));
+  for (const std::string& each : status.dropped) print_note("vantage: {}\n", printable(each));
   for (const auto& [number, reason] : status.left_out)
-    fmt::print(stderr, "vantage: left out scan {}, which is safe on disk: {}\n", number, printable(reason));
+    print_note("vantage: left out scan {}, which is safe on disk: {}\n", number, printable(reason));
 }
 
 void create(SessionRequest& request) {
@@ -67,20 +69,23 @@ void add(SessionRequest& request) {
           ": is for one scan, there are ", files.size());
   catch_interrupts();
   nlohmann::ordered_json added = nlohmann::ordered_json::array();
+  std::size_t stored = 0;
   for (const ScanFile& file : files) {
     if (was_interrupted()) break;
+    ++stored;
     const int number = session.store({file.name, file.view, file.read(), request.candidate});
     const ScanRecord record = session.integrate(number);
     if (request.program.json) {
       added.push_back(session_scan_json(number, record));
     } else {
       fmt::print("stored scan {:>3}  ", number);
-      print_record(stdout, record);
+      fmt::print("{}", record_line(record));
       std::fflush(stdout);
     }
   }
   if (request.program.json) fmt::print("{}\n", nlohmann::ordered_json{{"scans", added}}.dump(2));
-  for (const std::string& warning : session.status().warnings) fmt::print(stderr, "vantage: {}\n", warning);
+  for (const std::string& warning : session.status().warnings) print_note("vantage: {}\n", printable(warning));
+  if (stored < files.size()) throw Error(fmt::format("interrupted: {} of {} scans are stored", stored, files.size()));
 }
 
 void next(SessionRequest& request) {
@@ -119,7 +124,7 @@ void finish(SessionRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
   tell_dropped(session.status());
-  session.finish(report_page);
+  session.finish(report_page, request.overwrite ? ForeignFiles::overwrite : ForeignFiles::refuse);
   if (!request.program.quiet) fmt::print("written to {}; open report.html there\n", request.folder);
 }
 
@@ -180,6 +185,7 @@ void add_session(CLI::App& program) {
   const auto for_finish = std::make_shared<SessionRequest>();
   step = add_step(*session, "finish", "Write model, mesh, map, views.csv, summary.json and report.html", for_finish,
                   finish);
+  step->add_flag("--overwrite", for_finish->overwrite, "replace files of these names that the session did not write");
   add_program_options(*step, for_finish->program);
 }
 

@@ -1,4 +1,7 @@
 #include "vantage/model/scan_model.hpp"
+
+#include <mutex>
+
 #include "bindings.hpp"
 #include "options.hpp"
 #include "vantage/options/scan_planning_options.hpp"
@@ -24,16 +27,28 @@ class GrowingModel {
   }
 
   ScanRecord add(const ScanOrigin& origin, const Scan& scan, const View& believed) {
-    if (const auto* image = std::get_if<ImageScan>(&scan)) camera_ = image->image.camera;
-    distance_ += (sensor_position(scan, believed) - scene_.scene.center).norm();
+    const std::lock_guard lock(mutex_);
+    if (const auto* image = std::get_if<ImageScan>(&scan); image != nullptr && !camera_) camera_ = image->image.camera;
+    planned_.reset();
     return scans_.add(origin, scan, believed, *registrar_);
   }
 
-  [[nodiscard]] NextView next() const {
+  /// Planned once for each scan.
+  [[nodiscard]] NextView next() {
+    const std::lock_guard lock(mutex_);
+    if (!planned_) planned_ = plan();
+    return *planned_;
+  }
+
+  [[nodiscard]] const ObjectModel& model() const { return scans_.model(); }
+  [[nodiscard]] const View& current() const { return scans_.current(); }
+
+ private:
+  [[nodiscard]] NextView plan() const {
     require(!scans_.model().scans.empty(), "next_best_view: no scan has been added yet");
     ScanScene scene = scene_;
-    // As for a folder of scans: the mean distance of the sensor, where the options give none.
-    if (!options_.scene.radius) scene.radius = distance_ / static_cast<double>(scans_.model().scans.size());
+    // As for a folder of scans: the sensor's distance so far, where the options give none.
+    if (!options_.scene.radius) scene.radius = scans_.sensor_distance();
     Planner planner = options_.planner(scene.candidates(options_.scene.views), camera_);
     tell_of_scans(planner, scans_.model().scans);
     if (scans_.learner) planner.believe(scans_.learner->prediction());
@@ -41,16 +56,13 @@ class GrowingModel {
     return {std::move(plan), planner.why_finished()};
   }
 
-  [[nodiscard]] const ObjectModel& model() const { return scans_.model(); }
-  [[nodiscard]] const View& current() const { return scans_.current(); }
-
- private:
+  std::mutex mutex_;  // Python's threads run while this merges and plans
   ScanPlanningOptions options_;
   ScanScene scene_;
   std::unique_ptr<Registrar> registrar_;
   ScanModel scans_;
   std::optional<RangeCamera> camera_;
-  double distance_ = 0;  // sum over the scans, metres
+  std::optional<NextView> planned_;  // on all scans so far
 };
 
 std::unique_ptr<GrowingModel> empty_model(const Box3& box, const py::kwargs& keywords) {
@@ -104,10 +116,14 @@ void bind_scan_model(py::module_& module) {
           "Registers a Scan from where the robot believes the sensor to be (4x4) and merges it where that succeeds: a "
           "ScanRecord. commanded: where the sensor was sent (4x4), from which believed_error='learn' learns.")
       .def(
-          "next_best_view", [](const GrowingModel& model) { return model.next().first; }, Release(),
+          "next_best_view", [](GrowingModel& model) { return model.next().first; }, Release(),
           "The Plan for the next scan, or None where nothing is left to see.")
       .def_property_readonly(
-          "why_finished", [](const GrowingModel& model) { return model.next().second; },
+          "why_finished",
+          [](GrowingModel& model) {
+            const py::gil_scoped_release release;
+            return model.next().second;
+          },
           "Why next_best_view gives none; empty where it gives one.")
       .def_property_readonly(
           "map", [](const GrowingModel& model) -> const VoxelMap& { return model.model().map; },

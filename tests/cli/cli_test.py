@@ -66,6 +66,7 @@ class Misuse(CommandLine):
             (["--positioning-error", "0.1,-0.1,0"], "positioning-error"),
             (["--utility", "best"], "utility 'best' is unknown"),
             (["--search", "random"], "exhaustive, multi-resolution"),
+            (["--robot", "/dev/null"], "/dev/null"),
             (["--registration", "magic"], "truth, none, icp"),
             (["--initial-view", "80"], "must be one of the candidates 0 .. 79"),
             (["--max-views", "0"], "max-views = 0"),
@@ -129,6 +130,19 @@ class Misuse(CommandLine):
         self.assertIn("max-views", result.stderr)
         self.assert_refused(run("reconstruct", "mug", "--config", self.file("bad.yaml", "voxel: [1, 2\n")), "bad.yaml")
         self.assert_refused(run("reconstruct", "mug", "--config", self.file("type.yaml", "max-views: many\n")), "type.yaml")
+
+    def test_empty_files_are_no_configuration(self):
+        empty = self.file("empty.yaml", "")
+        self.assert_refused(run("reconstruct", "sphere", *SMALL, "--robot", empty), "empty.yaml: says nothing")
+        self.assert_refused(run("reconstruct", "sphere", *SMALL, "--config", empty), "empty.yaml: is empty")
+
+    def test_search_is_checked_by_every_command(self):
+        bad = ["--search", "exhaustiv"]
+        out = self.folder / "run"
+        self.assertEqual(run("reconstruct", "sphere", *SMALL, "--max-views", "1", "--no-report", "--out", out).returncode, 0)
+        for command in (["reconstruct", "sphere"], ["evaluate", out / "map.nrrd"], ["plan", out / "scans"],
+                        ["session", "new", self.folder / "s", "--box=0,0,0,1,1,1"]):
+            self.assert_refused(run(*command, *bad), "search = 'exhaustiv': must be one of: exhaustive, multi-resolution")
 
     def test_unwritable_output(self):
         self.assert_refused(run("reconstruct", "sphere", *SMALL, "--out", "/proc/vantage"), "/proc/vantage", code=1)

@@ -59,7 +59,7 @@ class Description(OverHttp):
                 ("GET", "/api/session?x=1", None, {}, 400),
                 ("POST", session + "next", b"", as_json, 200),
                 ("GET", "/api/session", None, {}, 200),
-                ("POST", scans, form(self.parts[2]), multipart, 201),
+                ("POST", scans, form({**self.parts[2], "candidate": "3"}), multipart, 201),
                 ("POST", session + "skip", b'{"candidate": 3, "reason": "far"}', as_json, 200),
                 ("POST", session + "next", one, as_json, 409),
                 ("POST", session + "unskip", one, as_json, 200),

@@ -154,6 +154,48 @@ class FullDisk(Sessions):
             subprocess.run(["umount", disk], check=True)
 
 
+class DiskErrors(Sessions):
+    """A disk that cannot sync, as strace makes it up."""
+
+    def setUp(self):
+        if subprocess.run(["strace", "-o", "/dev/null", "true"], capture_output=True).returncode != 0:
+            self.skipTest("needs strace")
+
+    def traced(self, options, *arguments):
+        trace = self.root / "trace"
+        result = subprocess.run(["strace", "-f", "-y", "-o", trace, *options, VANTAGE, *map(str, arguments)],
+                                capture_output=True, text=True, timeout=600)
+        return result, trace.read_text()
+
+    def test_a_scan_that_is_not_stored_does_not_come_back(self):
+        folder = self.new("unsynced")
+        # The first sync is that of the scan's file, the second that of its folder, when the file has its name.
+        failing = ["-e", "trace=fsync,unlink", "-e", "inject=fsync:error=EIO:when=2"]
+        result, _ = self.traced(failing, "session", "add", folder, self.frames[0])
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("000000.scan: its folder cannot be synced: Input/output error", result.stderr)
+        self.assertEqual(self.status(folder)["stored"], 0)
+        self.assertIn("stored scan   0 ", succeed("session", "add", folder, self.frames[1]))
+
+    def test_one_that_cannot_be_taken_back_is_not_denied(self):
+        folder = self.new("unsynced")
+        failing = ["-e", "trace=fsync,unlink", "-e", "inject=fsync:error=EIO:when=2", "-e", "inject=unlink:error=EROFS"]
+        result, _ = self.traced(failing, "session", "add", folder, self.frames[0])
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("it may be there when the session is opened again", result.stderr)
+        self.assertEqual(self.status(folder)["stored"], 1)
+        self.assertIn("stored scan   1 ", succeed("session", "add", folder, self.frames[1]))
+
+    def test_new_folders_are_synced_into_those_above_them(self):
+        root = self.root / "synced"
+        root.mkdir()
+        result, trace = self.traced(["-e", "trace=fsync"], "session", "new", root / "a" / "b", BOX)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        synced = set(re.findall(r"fsync\(\d+<([^>]*)>\)", trace))
+        for folder in (root, root / "a", root / "a" / "b", root / "a" / "b" / "session"):
+            self.assertIn(str(folder.resolve()), synced)
+
+
 class OneAtATime(Sessions):
     def test_the_second_process_is_refused(self):
         folder = self.new("shared")

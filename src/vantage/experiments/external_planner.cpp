@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 #include "vantage/formats/map_file.hpp"
@@ -43,7 +44,12 @@ class Conversation {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // so that all it starts can be ended
+    // A group of its own, so that all it starts can be ended; and a closed pipe ends it as it would end any program.
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &signals);
     posix_spawnattr_setpgroup(&attributes, 0);
     std::string shell = "/bin/sh", dash_c = "-c", text = command;
     const std::array<char*, 4> arguments{shell.data(), dash_c.data(), text.data(), nullptr};
@@ -62,10 +68,13 @@ class Conversation {
     close(ours_);
     // The closed socket asks it to end; after half a second it is made to.
     for (int i = 0; i < 50; ++i) {
-      if (waitpid(child_, nullptr, WNOHANG) != 0) return;
+      siginfo_t ended{};
+      // Not reaped yet, so that its number stays that of the group.
+      if (waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0)
+        break;
       usleep(10'000);
     }
-    kill(-child_, SIGKILL);
+    kill(-child_, SIGKILL);  // also what it left running behind
     waitpid(child_, nullptr, 0);
   }
 
@@ -176,10 +185,23 @@ nlohmann::ordered_json question(const Choice& choice, const std::filesystem::pat
   return json;
 }
 
+/// The start of an answer, for a message: bytes that are no plain text would not go through JSON.
+std::string start_of(const std::string& answer) {
+  constexpr std::size_t longest = 200;
+  std::string start;
+  for (const char letter : answer.substr(0, longest)) start += letter >= ' ' && letter <= '~' ? letter : '?';
+  return start;
+}
+
 int index_in(const std::string& answer, const std::string& command) {
   const nlohmann::json json = nlohmann::json::parse(answer, nullptr, false);
-  if (json.is_object() && json.contains("index") && json["index"].is_number_integer()) return json["index"].get<int>();
-  throw Error(concat("external planner '", command, "': answered '", answer.substr(0, 200),
+  if (json.is_object() && json.contains("index") && json["index"].is_number_integer()) {
+    const nlohmann::json& index = json["index"];
+    const bool fits = index.is_number_unsigned() ? std::in_range<int>(index.get<std::uint64_t>())
+                                                 : std::in_range<int>(index.get<std::int64_t>());
+    if (fits) return index.get<int>();
+  }
+  throw Error(concat("external planner '", command, "': answered '", start_of(answer),
                      "'; must be one line such as {\"index\": 3}"));
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <thread>
 
+#include "support/test_folder.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -59,6 +61,28 @@ TEST_F(ExternalPlanner, TellsWhatIsWrongWithAnAnswer) {
   EXPECT_THAT(error("echo '{\"index\": 3}'"), HasSubstr("index 3, which is none of the candidates"));
   EXPECT_THAT(error("echo view 11"), HasSubstr("answered 'view 11'; must be one line such as {\"index\": 3}"));
   EXPECT_THAT(error("echo '{\"index\": \"11\"}'"), HasSubstr("must be one line such as"));
+}
+
+TEST_F(ExternalPlanner, TakesNoIndexForAnotherOne) {
+  // 2^32 + 11, 2^64 - 2^32 + 11 and -2^32 + 11 are 11 where 32 bits are all that is looked at.
+  for (const char* index : {"4294967307", "18446744069414584331", "-4294967285", "11.0", "1e400"})
+    EXPECT_THAT(error(concat("echo '{\"index\": ", index, "}'")), HasSubstr("must be one line such as")) << index;
+}
+
+TEST_F(ExternalPlanner, ItsAnswerCanAlwaysBePrinted) {
+  EXPECT_THAT(error("printf 'v\\377\\033[2J\\n'"), HasSubstr("answered 'v??[2J'"));
+}
+
+TEST_F(ExternalPlanner, LeavesNothingRunningBehind) {
+  const TestFolder folder;
+  const std::string file = (folder / "beats").string();
+  // The shell ends at once when its input does; what it started would go on for ever.
+  (void)scores("(while true; do echo x >> " + file + "; sleep 0.05; done) > /dev/null 2>&1 & " +
+               "read line; echo '{\"index\": 11}'; while read line; do true; done");
+  const auto beats = [&file] { return std::filesystem::file_size(file); };
+  const auto after = beats();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(beats(), after);
 }
 
 TEST_F(ExternalPlanner, TellsWhereTheProgramEnds) {

@@ -26,31 +26,30 @@ std::string stem_of(const SweepRun& run) {
 }
 
 std::filesystem::path created(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
+  create_folders(folder);
   return folder;
 }
 
 /// What a killed sweep was writing when it was killed.
-void remove_unfinished(const std::filesystem::path& folder) {
+void remove_all_unfinished(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with('.') && name.ends_with(".tmp")) std::filesystem::remove(entry.path());
   }
 }
 
-std::string text_of(const Json& json) { return json.dump(1) + "\n"; }
+std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
 
-RunStore::RunStore(const std::filesystem::path& folder, std::string program)
-    : runs_(created(folder / "runs")),
+// Results of earlier sweeps stay: the same folder may hold several experiments.
+RunStore::RunStore(const std::filesystem::path& folder, std::string program, ForeignFiles foreign)
+    : folder_(folder, {.command = "experiment", .files = {}, .patterns = {}}, foreign),
+      runs_(created(folder / "runs")),
       times_(created(folder / "times")),
-      lock_(folder, "another experiment is writing there; wait for it or choose another --out"),
       program_(std::move(program)) {
-  remove_unfinished(runs_);
-  remove_unfinished(times_);
+  remove_all_unfinished(runs_);
+  remove_all_unfinished(times_);
 }
 
 std::filesystem::path RunStore::file_of(const SweepRun& run) const { return runs_ / (stem_of(run) + ".json"); }
@@ -58,8 +57,8 @@ std::filesystem::path RunStore::times_of(const SweepRun& run) const { return tim
 
 std::optional<RunOutcome> RunStore::load(const SweepRun& run) const {
   const std::filesystem::path file = file_of(run), times = times_of(run);
-  if (!std::filesystem::exists(file) || !std::filesystem::exists(times)) return std::nullopt;
   try {
+    if (!std::filesystem::exists(file) || !std::filesystem::exists(times)) return std::nullopt;
     const nlohmann::json stored = parse_json(read_file(file), file.string());
     if (!stored.contains("outcome") || stored.value("program", "") != program_ ||
         stored.at("configuration") != nlohmann::json::parse(run.configuration))
@@ -69,6 +68,8 @@ std::optional<RunOutcome> RunStore::load(const SweepRun& run) const {
     return std::nullopt;  // damaged by others: the run is repeated and the file replaced
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
+  } catch (const std::filesystem::filesystem_error&) {
+    return std::nullopt;  // a loop of links, for example
   }
 }
 

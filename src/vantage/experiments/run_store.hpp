@@ -5,7 +5,7 @@
 #include <string>
 
 #include "vantage/experiments/sweep_run.hpp"
-#include "vantage/files/folder_lock.hpp"
+#include "vantage/runs/output_folder.hpp"
 
 namespace vantage {
 
@@ -14,8 +14,9 @@ namespace vantage {
 /// written aside, synced and renamed, so a sweep that is killed keeps every run that was finished.
 class RunStore {
  public:
-  /// Creates the folders. `program`: which program makes the runs; outcomes of another one are not reused.
-  RunStore(const std::filesystem::path& folder, std::string program);
+  /// Creates the folders, or goes on with those of an earlier sweep. `program`: which program makes the runs; outcomes
+  /// of another one are not reused. Throws as OutputFolder does.
+  RunStore(const std::filesystem::path& folder, std::string program, ForeignFiles foreign = ForeignFiles::refuse);
 
   /// The stored outcome of this run, if program and configuration agree in full; nothing for a run that failed, was
   /// made by another program or whose file is damaged.
@@ -29,8 +30,8 @@ class RunStore {
  private:
   [[nodiscard]] std::filesystem::path times_of(const SweepRun& run) const;
 
+  OutputFolder folder_;
   std::filesystem::path runs_, times_;
-  FolderLock lock_;
   std::string program_;
 };
 

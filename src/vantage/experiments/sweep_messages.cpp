@@ -22,7 +22,7 @@ std::string encode(const SweepMessage& message) {
     json["outcome"] = outcome_json(*message.result.outcome);
     json["times"] = times_json(*message.result.outcome);
   }
-  return json.dump();
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 SweepMessage decode(const std::string& bytes) {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "vantage/core/error.hpp"
 
@@ -32,6 +33,16 @@ struct Descriptor {
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
+
+int open_folder(const std::filesystem::path& folder) {
+  return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+/// Of the unfinished file, before the process and the attempt.
+std::string unfinished_prefix(const std::filesystem::path& path) {
+  return fmt::format(".{}.", path.filename().string());
+}
+constexpr std::string_view unfinished_ending = ".tmp";
 
 }  // namespace
 
@@ -62,8 +73,8 @@ std::string read_file(const std::filesystem::path& path) {
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
   if (!path.has_filename()) throw Error(fmt::format("'{}': cannot be written: not the name of a file", path.string()));
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
-    aside_ = folder_of(path) /
-             fmt::format(".{}.{}-{}.tmp", path.filename().string(), static_cast<long>(::getpid()), attempt);
+    aside_ = folder_of(path) / fmt::format("{}{}-{}{}", unfinished_prefix(path), static_cast<long>(::getpid()), attempt,
+                                           unfinished_ending);
     descriptor_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) {
       const int error_number = errno;
@@ -107,18 +118,56 @@ void AtomicFile::commit() {
   flush();
   if (::fsync(descriptor_) != 0) fail("writing failed", errno);
   close();
+  const Descriptor folder(open_folder(folder_of(path_)));
+  if (folder.number < 0) fail("its folder cannot be opened", errno);
   if (::rename(aside_.c_str(), path_.c_str()) != 0) fail("cannot be written", errno);
   aside_.clear();
   // The new name is safe only once the folder is on the disk as well.
-  const Descriptor folder(::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.number < 0) fail("its folder cannot be opened", errno);
-  if (::fsync(folder.number) != 0 && errno != EINVAL) fail("its folder cannot be synced", errno);
+  if (::fsync(folder.number) != 0 && errno != EINVAL)
+    throw SyncError(fmt::format("{}: its folder cannot be synced: {}", path_.string(), reason(errno)));
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile file(path);
   file.write(bytes);
   file.commit();
+}
+
+void remove_unfinished(const std::filesystem::path& path) {
+  const std::string prefix = unfinished_prefix(path);
+  const auto is_unfinished = [&prefix](const std::string& name) {
+    if (!name.starts_with(prefix) || !name.ends_with(unfinished_ending)) return false;
+    if (name.size() <= prefix.size() + unfinished_ending.size()) return false;
+    const std::string who = name.substr(prefix.size(), name.size() - prefix.size() - unfinished_ending.size());
+    return who.find_first_not_of("0123456789-") == std::string::npos;
+  };
+  std::vector<std::filesystem::path> unfinished;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(folder_of(path), ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (is_unfinished(entry->path().filename().string())) unfinished.push_back(entry->path());
+  }
+  for (const std::filesystem::path& file : unfinished) std::filesystem::remove(file, ignored);
+}
+
+void create_folders(const std::filesystem::path& path) {
+  const auto fail = [&path](int error_number) {
+    throw Error(fmt::format("cannot create the folder {}: {}", path.string(), reason(error_number)));
+  };
+  std::filesystem::path made;
+  for (const std::filesystem::path& part : path.lexically_normal()) {
+    if (part.empty()) continue;  // behind a last slash
+    const std::filesystem::path above = made.empty() ? std::filesystem::path(".") : made;
+    made /= part;
+    if (::mkdir(made.c_str(), 0777) != 0) {
+      const int error_number = errno;
+      std::error_code ignored;
+      if (std::filesystem::is_directory(made, ignored)) continue;
+      fail(error_number);
+    }
+    const Descriptor folder(open_folder(above));
+    if (folder.number < 0 || (::fsync(folder.number) != 0 && errno != EINVAL)) fail(errno);
+  }
 }
 
 }  // namespace vantage

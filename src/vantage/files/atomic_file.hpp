@@ -4,11 +4,20 @@
 #include <string>
 #include <string_view>
 
+#include "vantage/core/error.hpp"
+
 namespace vantage {
 
 /// The whole content of a regular file. Throws InputError naming the path where it is missing, a folder, a device or
 /// not readable.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
+
+/// Thrown where a file has its name and content, but the disk did not confirm its folder: whoever opens it finds it,
+/// and a power cut may lose it.
+class SyncError : public Error {
+ public:
+  using Error::Error;
+};
 
 /// A file that appears under its name only when it is complete: bytes go to a hidden `.NAME.*.tmp` beside it, and
 /// commit() syncs them to the disk, renames and syncs the folder. A run that is killed leaves the old file untouched.
@@ -23,7 +32,8 @@ class AtomicFile {
 
   /// Small pieces are collected; call it as often as is handy.
   void write(std::string_view bytes);
-  /// Makes the file appear. Nothing can be written afterwards.
+  /// Makes the file appear. Nothing can be written afterwards. Throws SyncError where the file has appeared but may not
+  /// outlast a power cut, another Error where the old file is still there.
   void commit();
 
  private:
@@ -39,5 +49,13 @@ class AtomicFile {
 
 /// Writes the whole file as AtomicFile does.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Removes what AtomicFile left of files with this name in the folder where the process was killed. Only where nobody
+/// else may be writing them.
+void remove_unfinished(const std::filesystem::path& path);
+
+/// Makes a folder and those above it that are missing, each synced into the one above it. Throws Error naming the path
+/// and the reason.
+void create_folders(const std::filesystem::path& path);
 
 }  // namespace vantage

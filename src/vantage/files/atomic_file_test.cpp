@@ -109,6 +109,30 @@ TEST(AtomicFile, ADiskThatTakesNoMoreIsAnErrorAndLeavesTheOldFile) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});
 }
 
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemovedAndNothingElse) {
+  const TestFolder folder;
+  for (const char* name : {".file.12-0.tmp", ".file.7-13.tmp", ".file.tmp", ".file..tmp", ".other.12-0.tmp",
+                           ".file.12-0.tmp.kept", "file.12-0.tmp", ".file.my-0.tmp"})
+    std::ofstream(folder / name) << "x";
+  remove_unfinished(folder / "file");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{".file..tmp", ".file.12-0.tmp.kept", ".file.my-0.tmp",
+                                                      ".file.tmp", ".other.12-0.tmp", "file.12-0.tmp"}));
+  remove_unfinished(folder / "none" / "file");
+}
+
+TEST(CreateFolders, MakesWhatIsMissingAndSaysWhatIsInTheWay) {
+  const TestFolder folder;
+  create_folders(folder / "a" / "b" / "" / "c" / "");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a" / "b" / "c"));
+  create_folders(folder / "a" / "b");
+  std::filesystem::create_directory_symlink(folder / "a" / "b", folder / "link");
+  create_folders(folder / "link" / "d");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a" / "b" / "d"));
+  write_file_atomically(folder / "file", "x");
+  EXPECT_THAT(error_of([&] { create_folders(folder / "file" / "below"); }),
+              HasSubstr("cannot create the folder " + (folder / "file" / "below").string() + ": "));
+}
+
 TEST(ReadFile, UnreadablePathsAreInputErrors) {
   const TestFolder folder;
   EXPECT_THAT(input_error_of([&] { (void)read_file(folder / "none"); }),

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-constexpr double centre_tolerance = 0.05;  // voxel lengths; float32 rounds by far less in any sensible scene
+constexpr double centre_tolerance = 0.05;  // voxel lengths; we write them to a thousandth
 constexpr double unit_tolerance = 1e-3;
 constexpr std::int64_t most_whole_voxels = std::int64_t{1} << 27;  // of a scene that is written whole
 
@@ -50,12 +50,16 @@ void write_labels(const VoxelMap& map, const std::filesystem::path& path) {
 void write_surface(const VoxelMap& map, const std::filesystem::path& path) {
   const std::vector<Index3> voxels = map.occupied_voxels();
   AtomicFile file(path);
-  file.write(ply_header(voxels.size(), {"x", "y", "z", "nx", "ny", "nz", "quality"}));
+  const Box3 box = map.grid().box(map.enclosure());
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  constexpr double resolution = 1e-3;  // of a voxel
+  const Coordinates coordinates = coordinates_for(largest, resolution * map.grid().length);
+  file.write(ply_header(voxels.size(), coordinates, {"nx", "ny", "nz", "quality"}));
   std::string row;
   for (const Index3& voxel : voxels) {
     const SurfaceVoxel& surface = *map.surface(voxel);
     row.clear();
-    for (const double coordinate : map.grid().center(voxel)) append_float32(row, coordinate);
+    append_point(row, map.grid().center(voxel), coordinates);
     for (const double coordinate : surface.normal()) append_float32(row, coordinate);
     append_float32(row, surface.quality);
     file.write(row);

@@ -76,11 +76,12 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
 
 void write_mesh_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
   AtomicFile file(path);
-  file.write(ply_header(mesh.vertices.size(), {"x", "y", "z"}, mesh.triangles.size()));
+  const Coordinates coordinates = coordinates_for(mesh.vertices);
+  file.write(ply_header(mesh.vertices.size(), coordinates, {}, mesh.triangles.size()));
   std::string row;
   for (const Vec3& vertex : mesh.vertices) {
     row.clear();
-    for (const double coordinate : vertex) append_float32(row, coordinate);
+    append_point(row, vertex, coordinates);
     file.write(row);
   }
   for (const Index3& triangle : mesh.triangles) {

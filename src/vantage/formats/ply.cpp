@@ -349,11 +349,38 @@ const PlyColumn& scalar_column(const PlyElement& element, std::string_view colum
   return *found;
 }
 
-std::string ply_header(std::size_t vertices, const std::vector<std::string>& properties, std::size_t faces) {
+Coordinates coordinates_for(double largest, double resolution) {
+  constexpr double rounding = 0x1p-24;  // of float32, relative
+  return largest * rounding <= resolution ? Coordinates::float32 : Coordinates::float64;
+}
+
+Coordinates coordinates_for(const std::vector<Vec3>& points) {
+  constexpr double resolution = 0x1p-18;
+  Box3 box;
+  for (const Vec3& point : points) box.extend(point);
+  if (box.isEmpty()) return Coordinates::float32;
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return coordinates_for(largest, resolution * box.sizes().maxCoeff());
+}
+
+std::string ply_header(std::size_t vertices, Coordinates coordinates, const std::vector<std::string>& properties,
+                       std::size_t faces) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", vertices);
+  const char* const type = coordinates == Coordinates::float32 ? "float" : "double";
+  for (const char axis : {'x', 'y', 'z'}) header += fmt::format("property {} {}\n", type, axis);
   for (const std::string& property : properties) header += fmt::format("property float {}\n", property);
   if (faces > 0) header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces);
   return header + "end_header\n";
+}
+
+void append_point(std::string& bytes, const Vec3& point, Coordinates coordinates) {
+  for (const double coordinate : point) {
+    if (coordinates == Coordinates::float32) {
+      append_float32(bytes, coordinate);
+    } else {
+      append_little_endian(bytes, coordinate);
+    }
+  }
 }
 
 void append_float32(std::string& bytes, double value) { append_little_endian(bytes, static_cast<float>(value)); }

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/core/geometry.hpp"
+
 namespace vantage {
 
 /// One property of all rows of a PLY element, for example `x` of `vertex`.
@@ -46,10 +48,21 @@ struct Ply {
 [[nodiscard]] const PlyColumn& scalar_column(const PlyElement& element, std::string_view column,
                                              const std::string& name);
 
-/// The header of a binary little-endian file with one element `vertex` of float32 properties, with `faces` an element
-/// `face` of `list uchar int vertex_indices` after it.
-[[nodiscard]] std::string ply_header(std::size_t vertices, const std::vector<std::string>& properties,
-                                     std::size_t faces = 0);
+/// How the coordinates of a file are written: as float32, which every reader takes, or as float64 where float32 would
+/// round them to coarse steps because they lie far from the origin.
+enum class Coordinates { float32, float64 };
+/// float32 where it keeps coordinates up to `largest` to `resolution`.
+[[nodiscard]] Coordinates coordinates_for(double largest, double resolution);
+/// float32 where it keeps the points to a 2^18th of their extent.
+[[nodiscard]] Coordinates coordinates_for(const std::vector<Vec3>& points);
+
+/// The header of a binary little-endian file with one element `vertex` of x, y, z and further float32 properties, with
+/// `faces` an element `face` of `list uchar int vertex_indices` after it.
+[[nodiscard]] std::string ply_header(std::size_t vertices, Coordinates coordinates,
+                                     const std::vector<std::string>& properties, std::size_t faces = 0);
+
+/// Appends x, y, z, little endian.
+void append_point(std::string& bytes, const Vec3& point, Coordinates coordinates);
 
 /// Appends the value as four bytes, little endian.
 void append_float32(std::string& bytes, double value);

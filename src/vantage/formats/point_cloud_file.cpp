@@ -177,11 +177,12 @@ void write_cloud_ply(const std::filesystem::path& path, const PointCloud& cloud)
   require(cloud.points.size() == cloud.normals.size(), path.string(), ": a cloud of ", cloud.points.size(),
           " points has ", cloud.normals.size(), " normals; must be as many");
   AtomicFile file(path);
-  file.write(ply_header(cloud.size(), {"x", "y", "z", "nx", "ny", "nz"}));
+  const Coordinates coordinates = coordinates_for(cloud.points);
+  file.write(ply_header(cloud.size(), coordinates, {"nx", "ny", "nz"}));
   std::string row;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     row.clear();
-    for (const double coordinate : cloud.points[i]) append_float32(row, coordinate);
+    append_point(row, cloud.points[i], coordinates);
     for (const double coordinate : cloud.normals[i]) append_float32(row, coordinate);
     file.write(row);
   }

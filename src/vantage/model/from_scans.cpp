@@ -8,8 +8,9 @@
 namespace vantage {
 namespace {
 
-constexpr int default_voxels_along_box = 55;  // as in the paper
-constexpr double margin = 0.05;               // around all points, as a share of their extent
+constexpr int default_voxels_along_box = 55;           // as in the paper
+constexpr double least_radius = 1e-6, farthest = 1e6;  // metres, as for the scene
+constexpr double margin = 0.05;                        // around all points, as a share of their extent
 
 Box3 box_around(const std::vector<PendingScan>& scans) {
   Box3 box;
@@ -29,7 +30,8 @@ void ScanPlanOptions::validate() const {
             ": the sizes (last three) must be positive");
   }
   require(!voxel || *voxel > 0, "voxel = ", voxel.value_or(0), " m: must be positive");
-  require(!radius || *radius > 0, "radius = ", radius.value_or(0), " m: must be positive");
+  require(!radius || (*radius >= least_radius && *radius <= farthest), "radius = ", radius.value_or(0),
+          " m: must be within ", least_radius, " and ", farthest, " m");
   require(pose_error > 0, "pose-error = ", pose_error, " m: must be positive; use registration none for exact poses");
   require(pose_angle_error > 0 && pose_angle_error <= 90, "pose-angle-error = ", pose_angle_error,
           " degrees: must be in (0, 90]");
@@ -77,23 +79,30 @@ std::size_t points_in(const Box3& box, const Scan& scan, const View& believed) {
   }));
 }
 
+double typical_distance(std::vector<double> distances) {
+  if (distances.empty()) return 0;
+  std::sort(distances.begin(), distances.end());
+  const std::size_t middle = distances.size() / 2;
+  return distances.size() % 2 == 1 ? distances[middle] : (distances[middle - 1] + distances[middle]) / 2;
+}
+
 ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
   options.validate();
   require(!scans.empty(), "scans: there are none");
   const std::optional<Box3> given = given_box(options);
   const Box3 box = given ? *given : box_around(scans);
   ScanScene fitted = scene_in(box, options);
-  double distance = 0;
+  std::vector<double> distances;
   std::size_t hits = 0;
   for (const PendingScan& pending : scans) {
     const Scan scan = pending.read();
-    distance += (sensor_position(scan, pending.believed) - box.center()).norm();
+    distances.push_back((sensor_position(scan, pending.believed) - box.center()).norm());
     hits += points_in(box, scan, pending.believed);
   }
   require(hits > 0, "box: none of the ", scans.size(), " scans has a point in the box around (",
           box.center().transpose(), ") of size (", box.sizes().transpose(),
           ") m; `vantage doctor` tells whether poses, units or the box are wrong");
-  if (!options.radius) fitted.radius = distance / static_cast<double>(scans.size());
+  if (!options.radius) fitted.radius = typical_distance(std::move(distances));
   return fitted;
 }
 

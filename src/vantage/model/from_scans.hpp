@@ -11,7 +11,7 @@ namespace vantage {
 struct ScanPlanOptions {
   std::optional<Eigen::Matrix<double, 6, 1>> box;  // cx cy cz sx sy sz, metres; around all points if not given
   std::optional<double> voxel;                     // metres; the longest side of the box over 55 if not given
-  std::optional<double> radius;      // of the view sphere, metres; the sensor's mean distance if not given
+  std::optional<double> radius;      // of the view sphere, metres; the sensor's median distance if not given
   int views = 80;                    // on the view sphere
   std::string registration = "icp";  // icp or none
   double pose_angle_error = 5;       // degrees
@@ -25,7 +25,8 @@ template <class Field>
 void describe(ScanPlanOptions& o, Field&& field) {
   field("box", o.box, "m", "where the object is: cx,cy,cz,sx,sy,sz; around all points if not given");
   field("voxel", o.voxel, "m", "edge of a voxel; the longest side of the box over 55 if not given");
-  field("radius", o.radius, "m", "of the view sphere; the sensor's mean distance from the box if not given");
+  field("radius", o.radius, "m",
+        "of the view sphere; the sensor's median distance from the box at merged scans if not given");
   field("views", o.views, "", "candidates on the view sphere: 20*4^k");
   field("registration", o.registration, "", "icp, or none to take the poses as they are");
   field("pose-error", o.pose_error, "m", "how far off the poses may be at most");
@@ -59,6 +60,9 @@ struct ScanScene {
 [[nodiscard]] std::optional<Box3> given_box(const ScanPlanOptions& options);
 /// Number of the scan's points in the box, by the believed pose.
 [[nodiscard]] std::size_t points_in(const Box3& box, const Scan& scan, const View& believed);
+
+/// The median of distances between box and sensor, which a scan with a wrong pose hardly moves; 0 where there are none.
+[[nodiscard]] double typical_distance(std::vector<double> distances);
 
 /// Fits the scene to the options and, where they leave something open, to the scans. Throws InputError where no scan
 /// has a point in the box.

@@ -39,7 +39,8 @@ std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const 
   return std::make_unique<IcpRegistrar>(registration, scene.region);
 }
 
-ScanModel::ScanModel(const ScanScene& scene) : model_(scene.scene, scene.scene.voxel_length / 4) {}
+ScanModel::ScanModel(const ScanScene& scene)
+    : model_(scene.scene, scene.scene.voxel_length / 4), center_(scene.scene.center) {}
 
 const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& scan, const View& believed,
                                  Registrar& registrar) {
@@ -49,6 +50,8 @@ const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& scan, con
   record.reason = origin.name;
   const Vec3 position = sensor_position(scan, record.registered);
   record.distance = model_.scans.empty() ? 0 : model_.scans.back().distance + (position - current_.position()).norm();
+  // A scan that was not merged may lie anywhere, as far as anybody knows: it says nothing about where to look from.
+  if (record.merged) distances_.push_back((position - center_).norm());
   current_ = record.registered;
   current_.world_from_sensor.translation() = position;
   if (learner) {

@@ -33,11 +33,16 @@ class ScanModel {
   const ScanRecord& add(const ScanOrigin& origin, const Scan& scan, const View& believed, Registrar& registrar);
 
   [[nodiscard]] const ObjectModel& model() const { return model_; }
+  /// Median distance of the sensor from the middle of the scene at the scans that were merged, metres; 0 before the
+  /// first. One with a wrong pose hardly moves it.
+  [[nodiscard]] double sensor_distance() const { return typical_distance(distances_); }
   /// Where the sensor is: at its last scan, in the middle of its sight lines' origins.
   [[nodiscard]] const View& current() const { return current_; }
 
  private:
   ObjectModel model_;
+  Vec3 center_;                    // of the scene
+  std::vector<double> distances_;  // of the sensor from there, metres, at merged scans
   View current_;
 };
 

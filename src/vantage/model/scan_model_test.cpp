@@ -47,5 +47,40 @@ TEST(TellOfScans, NamesTheCandidatesThatScansWereMergedFrom) {
   EXPECT_THAT(scanned, ElementsAre(3, 7));
 }
 
+/// Refuses the scans whose believed position is this far off or farther.
+class RefusingRegistrar : public Registrar {
+ public:
+  [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View& believed) override {
+    return {believed, believed.position().norm() < 100, 1, 0, "", ""};
+  }
+};
+
+TEST(ScanModel, TheSensorsDistanceIsThatOfMergedScans) {
+  ScanPlanOptions options;
+  options.voxel = 0.1;
+  const ScanScene scene = scene_in(Box3(Vec3(0.5, 0, 0), Vec3(1.5, 1, 1)), options);
+  ScanModel scans(scene);
+  RefusingRegistrar registrar;
+  RangeImage image{camera_from_apertures(radians(45), radians(45), {10, 10}), std::vector<float>(100, 1.9F)};
+  EXPECT_EQ(scans.sensor_distance(), 0);
+  const auto add = [&](double distance) {
+    const Vec3 position = scene.scene.center + Vec3(0, 0, distance);
+    (void)scans.add({}, scan_of(image), view_towards(position, scene.scene.center), registrar);
+    return scans.sensor_distance();
+  };
+  EXPECT_DOUBLE_EQ(add(2), 2);
+  EXPECT_DOUBLE_EQ(add(3), 2.5);
+  EXPECT_DOUBLE_EQ(add(1000), 2.5) << "was not merged";
+  EXPECT_DOUBLE_EQ(add(50), 3) << "one that is far off moves the median to its neighbour";
+}
+
+TEST(TypicalDistance, IsTheMedian) {
+  EXPECT_EQ(typical_distance({}), 0);
+  EXPECT_EQ(typical_distance({3}), 3);
+  EXPECT_EQ(typical_distance({900, 1}), 450.5);
+  EXPECT_EQ(typical_distance({1, 900, 2}), 2);
+  EXPECT_EQ(typical_distance({4, 900, 1, 2}), 3);
+}
+
 }  // namespace
 }  // namespace vantage

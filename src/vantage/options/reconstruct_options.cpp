@@ -88,7 +88,6 @@ void ReconstructOptions::validate() const {
   require((depth_noise.array() >= 0).all() && depth_noise.allFinite(), "depth-noise = ", depth_noise.transpose(),
           ": must not be negative");
   require_one_of("quality", quality, {"axis", "ray"});
-  require_one_of("search", search, {"exhaustive", "multi-resolution"});
   require_one_of("registration", registration, {"truth", "none", "icp"});
   validate_errors(center);
   require(!learns_error() || registration != "none",
@@ -113,6 +112,7 @@ RangeCamera ReconstructOptions::range_camera() const {
 
 PlannerOptions ReconstructOptions::planner_options() const {
   PlannerOptions result;
+  require_one_of("search", search, {"exhaustive", "multi-resolution"});
   result.search = search == "exhaustive" ? SearchKind::exhaustive : SearchKind::multi_resolution;
   result.rays = rays_from_text(rays);
   result.multi_resolution = {multi_resolution_b, multi_resolution_stages, multi_resolution_columns};

@@ -6,6 +6,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
 #include "vantage/files/text_reader.hpp"
+#include "vantage/files/yaml_text.hpp"
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/robot/free_flyer.hpp"
 #include "vantage/robot/gantry.hpp"
@@ -193,6 +194,8 @@ void load_robot(ReconstructOptions& options, const std::set<std::string>& given)
 void set_robot(ReconstructOptions& options, const std::string& text, const std::filesystem::path& file,
                const std::set<std::string>& given) {
   const std::string name = file.string();
+  // A full disk leaves such files: a robot without limits is not what anybody means by one.
+  require(!parse_yaml(text, name).IsNull(), name, ": says nothing; must say at least `kind: free-flyer`");
 
   RobotDescription robot;
   const std::vector<OptionField> all = option_fields(robot);

@@ -80,6 +80,11 @@ TEST_F(RobotFile, NotesWhatIsSet) {
   EXPECT_EQ(given, std::set<std::string>{"voxel"});
 }
 
+TEST_F(RobotFile, AFileThatSaysNothingIsNoRobot) {
+  for (const char* text : {"", "\n", "# a robot\n", "---\n"})
+    EXPECT_THAT(error_of(text), HasSubstr("robot.yaml: says nothing; must say at least `kind: free-flyer`"));
+}
+
 TEST_F(RobotFile, ErrorsNameFileAndLine) {
   EXPECT_THAT(error_of("kind: drone\n"),
               EndsWith("robot.yaml, line 1: kind = 'drone': must be one of: free-flyer, gantry, turntable, arm"));

@@ -25,6 +25,12 @@ void ScanPlanningOptions::validate_without_commands() const {
   validate();
 }
 
+void ScanPlanningOptions::require_can_plan(const SceneOptions& fitted) const {
+  const double radius = scene.radius.value_or(fitted.voxel_length * fitted.enclosure_size.cast<double>().norm());
+  const Planner trial = planner(view_sphere(scene.views, radius, fitted.center), std::nullopt);
+  (void)ideal_resolution(trial.camera(), fitted.voxel_length, radius);
+}
+
 RangeCamera ScanPlanningOptions::camera(const std::optional<RangeCamera>& of_scans) const {
   RangeCamera camera = of_scans.value_or(planning.range_camera());
   camera.min_depth = reading.depth_range[0];

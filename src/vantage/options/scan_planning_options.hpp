@@ -19,6 +19,8 @@ struct ScanPlanningOptions {
   void validate() const;
   /// The same, and that nothing is to be learned of commanded views, which a folder of scans does not tell.
   void validate_without_commands() const;
+  /// Throws InputError naming the option where no view could ever be planned in the scene, whatever scans come.
+  void require_can_plan(const SceneOptions& fitted) const;
   /// The camera that views are planned for: that of the scans where they have one, with the depth range of the options.
   [[nodiscard]] RangeCamera camera(const std::optional<RangeCamera>& of_scans) const;
   /// Reads the robot's file, where one is named and not read yet; otherwise each planner() reads it, and forgets what

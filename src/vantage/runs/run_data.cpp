@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "vantage/core/error.hpp"
 
@@ -83,10 +84,11 @@ void RunData::finish(const ObjectModel& model, const std::string& reason) {
   next.reset();
   cloud = model.surface.cloud();
   scan_of_point.resize(cloud.size());
+  constexpr std::size_t last_number = std::numeric_limits<std::uint16_t>::max();
   std::size_t first = 0;
   for (std::size_t scan = 0; scan < cloud_sizes_.size(); ++scan) {
     for (; first < std::min(cloud_sizes_[scan], cloud.size()); ++first) {
-      scan_of_point[first] = static_cast<std::uint16_t>(scan);
+      scan_of_point[first] = static_cast<std::uint16_t>(std::min(scan, last_number));
     }
   }
 }

@@ -91,6 +91,7 @@ Json scan_json(const ScanRecord& record) {
   };
   json["learned_sigma"] = learned(0, 1);
   json["learned_angle"] = learned(3, radians(1));
+  json["merged"] = record.merged;
   return json;
 }
 

@@ -47,7 +47,8 @@ TEST(RunFiles, RowsOfViewsHaveTheColumnsOfTheirHeader) {
       "believed_x,believed_y,believed_z,believed_qx,believed_qy,believed_qz,believed_qw,registered_x,registered_y,"
       "registered_z,registered_qx,registered_qy,registered_qz,registered_qw,n_oc,n_op,n_um,f_area,f_navigation,"
       "f_quality,f_occlusion,utility,occupied,occplane,unmarked,new_occupied,mean_quality,distance,coverage,"
-      "coverage_all,overlap,residual,verdict,reason,expected_utility,overlap_probability,learned_sigma,learned_angle");
+      "coverage_all,overlap,residual,verdict,reason,expected_utility,overlap_probability,learned_sigma,learned_angle,"
+      "merged");
   EXPECT_EQ(fields(first), fields(header));
   EXPECT_EQ(fields(second), fields(header));
   EXPECT_NE(second.find("\"because of \"\"this\"\", and that\""), std::string::npos);

@@ -13,6 +13,7 @@
 #include "vantage/formats/pose_file.hpp"
 #include "vantage/model/surface_mesh.hpp"
 #include "vantage/runs/run_document.hpp"
+#include "vantage/runs/run_log.hpp"
 
 namespace vantage {
 
@@ -26,6 +27,14 @@ DepthEncoding encoding_for(const RangeCamera& camera) {
   const double coarsest = std::max(finest_depth_unit, camera.max_depth / (no_return - 1));
   return {.metres_per_unit = std::ceil(coarsest / finest_depth_unit - 1e-9) * finest_depth_unit,
           .no_return = no_return};
+}
+
+OutputNames output_names(const std::string& command) {
+  return {.command = command,
+          .files = {"map.nrrd", "map.ply", "model.ply", "mesh.ply", "config.yaml", "views.csv", "timings.json",
+                    "summary.json", "report.html", std::string(RunLog::file_name), "scans/camera-intrinsics.txt",
+                    "scans/scans.yaml"},
+          .patterns = {"scans/scan-*.depth.png", "scans/scan-*.pose.txt"}};
 }
 
 std::string intrinsics_text(const RangeCamera& camera) {
@@ -62,11 +71,9 @@ PointCloud object_cloud(const ObjectModel& model) {
   return inside;
 }
 
-RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
-    : path_(std::move(path)), description_(std::move(description)) {
-  std::error_code error;
-  std::filesystem::create_directories(path_ / "scans", error);
-  if (error) throw Error(fmt::format("cannot create the output folder {}: {}", path_.string(), error.message()));
+RunFolder::RunFolder(const std::filesystem::path& path, RunDescription description, ForeignFiles foreign)
+    : folder_(path, output_names(description.command), foreign), description_(std::move(description)) {
+  create_folders(path / "scans");
   data_.command = description_.command;
   data_.object = description_.object;
   data_.program = description_.program;
@@ -80,8 +87,13 @@ RunFolder::RunFolder(std::filesystem::path path, RunDescription description)
   data_.state = RunData::State::running;
 }
 
+void RunFolder::set_candidates(Candidates candidates, std::string text) {
+  data_.candidates = description_.candidates = std::move(candidates);
+  data_.candidates_text = description_.candidates_text = std::move(text);
+}
+
 void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
-  if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path_ / "scans", record, image->image);
+  if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path() / "scans", record, image->image);
   data_.grid = model.map.grid();
   data_.enclosure = model.map.enclosure();
   if (on_event && data_.scans.empty()) on_event("run", run_json(data_));
@@ -95,12 +107,12 @@ void RunFolder::add_plan(const Plan& plan) {
 
 void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
                        double total_seconds, const RunPage& page) {
-  write_map(model.map, path_ / "map.nrrd");
-  write_cloud_ply(path_ / "model.ply", object_cloud(model));
-  write_file_atomically(path_ / "config.yaml", description_.config);
-  write_file_atomically(path_ / "views.csv", views_csv(model.scans));
-  write_file_atomically(path_ / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
-  write_file_atomically(path_ / "summary.json", summary_json(model, summary).dump(2) + "\n");
+  write_map(model.map, path() / "map.nrrd");
+  write_cloud_ply(path() / "model.ply", object_cloud(model));
+  write_file_atomically(path() / "config.yaml", description_.config);
+  write_file_atomically(path() / "views.csv", views_csv(model.scans));
+  write_file_atomically(path() / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
+  write_file_atomically(path() / "summary.json", summary_json(model, summary).dump(2) + "\n");
   if (!page && !on_event) return;
   data_.finish(model, summary.stop_reason);
   if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
@@ -113,9 +125,9 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
 
 void RunFolder::write_report(const ObjectModel& model, double total_seconds, const RunPage& page) {
   const TriangleMesh mesh = surface_mesh(object_cloud(model));
-  if (!mesh.triangles.empty()) write_mesh_ply(path_ / "mesh.ply", mesh);
+  if (!mesh.triangles.empty()) write_mesh_ply(path() / "mesh.ply", mesh);
   data_.mesh = mesh;
-  write_file_atomically(path_ / "report.html", page(data_, model.map, total_seconds));
+  write_file_atomically(path() / "report.html", page(data_, model.map, total_seconds));
 }
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "vantage/runs/output_folder.hpp"
 #include "vantage/runs/run_data.hpp"
 #include "vantage/runs/run_files.hpp"
 
@@ -26,18 +27,21 @@ struct RunDescription {
 /// The page that shows a finished run, for report.html. `seconds`: wall-clock time of the whole run.
 using RunPage = std::function<std::string(const RunData& run, const VoxelMap& map, double seconds)>;
 
-/// The output folder of a reconstruction (spec, section 10). Scans are written as they are taken; the rest at the end.
-/// Every file appears under its name only when it is complete.
+/// The output folder of a reconstruction (spec, section 10), which is the run's own while this lives (OutputFolder).
+/// Scans are written as they are taken; the rest at the end. Every file appears under its name only when it is
+/// complete.
 class RunFolder {
  public:
-  /// Creates the folder. Throws Error where that is not possible.
-  RunFolder(std::filesystem::path path, RunDescription description);
+  /// Creates the folder, or takes over that of an earlier run and removes what it wrote. Throws as OutputFolder does.
+  RunFolder(const std::filesystem::path& path, RunDescription description, ForeignFiles foreign = ForeignFiles::refuse);
 
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
   /// Hears all that a page needs to follow the run (docs/report-data.md, "Live"): `run` with the whole document at the
   /// first scan, `scan`, `plan`, and `result` and `state` at the end.
   std::function<void(std::string_view event, const nlohmann::ordered_json& data)> on_event;
 
+  /// Where the candidates are known only after the scans: before add_plan() and finish().
+  void set_candidates(Candidates candidates, std::string text);
   /// Notes a scan for the report and writes it to `scans/`: what the sensor measured, and the registered pose (the
   /// believed one where registration failed). `model` as it is after the scan.
   void add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan);
@@ -50,7 +54,7 @@ class RunFolder {
  private:
   void write_report(const ObjectModel& model, double total_seconds, const RunPage& page);
 
-  std::filesystem::path path_;
+  OutputFolder folder_;
   RunDescription description_;
   RunData data_;
 };

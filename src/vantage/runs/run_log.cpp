@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,26 +13,41 @@
 
 namespace vantage {
 
+bool RunLog::is_written(const std::filesystem::path& log) {
+  const int descriptor = ::open(log.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return false;
+  const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
+  ::close(descriptor);
+  return locked;
+}
+
 RunLog::RunLog(const std::filesystem::path& folder) : path_(folder / file_name) {
-  // A new file, so that a reader of the old one notices.
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error(concat("cannot write ", path_.string(), ": ", std::strerror(errno)));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor_);
+  const auto fail = [this](const std::filesystem::path& aside) {
+    const int error_number = errno;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!aside.empty()) ::unlink(aside.c_str());
+    throw Error(concat("cannot write ", path_.string(), ": ", std::strerror(error_number)));
+  };
+  if (is_written(path_))
     throw Error(concat(path_.string(), ": another run writes to this folder; choose another one with --out"));
-  }
-  if (::lseek(descriptor_, 0, SEEK_END) == 0) return;
-  std::filesystem::remove(path_);
-  ::close(descriptor_);
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
-    throw Error(concat("cannot write ", path_.string(), ": ", std::strerror(errno)));
+  // Locked before it has its name: nobody ever sees it without, and nobody who looks whether it is locked is in the
+  // way.
+  const std::filesystem::path aside = folder / concat(".", file_name, ".", ::getpid(), "-0.tmp");
+  descriptor_ = ::open(aside.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail({});
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail(aside);
+  if (::rename(aside.c_str(), path_.c_str()) != 0) fail(aside);
+}
+
+bool RunLog::is_mine() const {
+  struct stat mine {
+  }, there{};
+  return ::fstat(descriptor_, &mine) == 0 && ::stat(path_.c_str(), &there) == 0 && mine.st_ino == there.st_ino &&
+         mine.st_dev == there.st_dev;
 }
 
 RunLog::~RunLog() {
-  if (descriptor_ < 0) return;
-  // Nothing was told: there is nothing to look at either.
-  if (::lseek(descriptor_, 0, SEEK_END) == 0) ::unlink(path_.c_str());
+  if (::lseek(descriptor_, 0, SEEK_END) == 0 && is_mine()) ::unlink(path_.c_str());
   ::close(descriptor_);
 }
 
@@ -47,6 +63,8 @@ void RunLog::add(std::string_view event, const nlohmann::ordered_json& data) {
   }
 }
 
-void RunLog::remove() { std::filesystem::remove(path_); }
+void RunLog::remove() {
+  if (is_mine()) ::unlink(path_.c_str());
+}
 
 }  // namespace vantage

@@ -10,18 +10,10 @@
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
 #include "vantage/options/reconstruct_options.hpp"
+#include "vantage/runs/output_folder.hpp"
 #include "vantage/runs/stored_run_files.hpp"
 
 namespace vantage {
-namespace {
-
-bool says_that_it_failed(const std::string& verdict) {
-  constexpr std::array failures{Verdict::insufficient_overlap, Verdict::not_converged, Verdict::large_residual,
-                                Verdict::degenerate, Verdict::ambiguous};
-  return std::any_of(failures.begin(), failures.end(), [&](Verdict failure) { return verdict == name(failure); });
-}
-
-}  // namespace
 
 StoredRun read_stored_run(const std::filesystem::path& folder) {
   require(std::filesystem::is_directory(folder), folder.string(), ": is no folder; it must be the output of a run");
@@ -29,7 +21,7 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
   require(has("map.nrrd") || has("model.ply") || has("mesh.ply"), folder.string(),
           ": has neither map.nrrd nor model.ply nor mesh.ply; it must be the output of a run");
   StoredRun run;
-  run.object = std::filesystem::absolute(folder).lexically_normal().filename().string();
+  run.object = name_of_folder(folder);
   if (has("map.nrrd")) run.map = read_map(folder / "map.nrrd");
   if (has("model.ply")) run.cloud = read_cloud(folder / "model.ply").cloud;
   if (has("mesh.ply")) run.mesh = read_mesh(folder / "mesh.ply");
@@ -38,7 +30,6 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
     StoredSummary summary = parse_run_summary(read_file(file), file.string());
     run.object = summary.object.value_or(run.object);
     run.scans = std::move(summary.scans);
-    for (ScanRecord& scan : run.scans) scan.merged = !says_that_it_failed(scan.verdict);
   }
   if (has("config.yaml")) {
     const std::filesystem::path file = folder / "config.yaml";

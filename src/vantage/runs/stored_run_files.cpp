@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/files/json_text.hpp"
 #include "vantage/files/yaml_text.hpp"
+#include "vantage/registration/registration.hpp"
 
 namespace vantage {
 namespace {
@@ -30,6 +32,12 @@ int candidate_from_json(const nlohmann::json& candidate, const std::string& what
   const double value = json_number(candidate, what);
   require(value >= -1 && value <= std::numeric_limits<int>::max(), what, " = ", value, ": must be the index of a view");
   return static_cast<int>(value);
+}
+
+bool says_that_it_failed(const std::string& verdict) {
+  constexpr std::array failures{Verdict::insufficient_overlap, Verdict::not_converged, Verdict::large_residual,
+                                Verdict::degenerate,           Verdict::in_free_space, Verdict::ambiguous};
+  return std::any_of(failures.begin(), failures.end(), [&](Verdict failure) { return verdict == name(failure); });
 }
 
 std::optional<std::string> text_of(const YAML::Node& config, const char* key, const std::string& name) {
@@ -64,6 +72,10 @@ StoredSummary parse_run_summary(std::string_view bytes, const std::string& name)
       *view = view_from_json(scans[i].value(key, nlohmann::json()), concat(what, ".", key));
     const nlohmann::json verdict = scans[i].value("verdict", nlohmann::json());
     if (verdict.is_string()) scan.verdict = verdict.get<std::string>();
+    const nlohmann::json merged = scans[i].value("merged", nlohmann::json());
+    require(merged.is_null() || merged.is_boolean(), what, ".merged: must be true or false");
+    // Summaries of earlier versions have only the word.
+    scan.merged = merged.is_boolean() ? merged.get<bool>() : !says_that_it_failed(scan.verdict);
     result.scans.push_back(scan);
   }
   return result;

@@ -1,9 +1,6 @@
 #include "vantage/server/folder_watch.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <fstream>
 
@@ -16,15 +13,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Whether a program still writes the log.
-bool is_written(const std::filesystem::path& log) {
-  const int descriptor = ::open(log.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
-  ::close(descriptor);
-  return locked;
-}
 
 /// Whether an experiment keeps its runs here (experiments/run_store.hpp).
 bool is_of_experiment(const std::filesystem::path& folder) {
@@ -74,7 +62,7 @@ void FolderWatch::look() {
 
 void FolderWatch::follow_log() {
   const std::filesystem::path path = folder_ / RunLog::file_name;
-  const bool was_written = is_written(path);  // asked before reading, so that nothing can follow what is read
+  const bool was_written = RunLog::is_written(path);  // asked before reading, so that nothing can follow what is read
   std::ifstream log(path, std::ios::binary);
   const std::uint64_t file = stamp_of(path).file;
   if (!log || file == 0) return;  // it has just been taken away

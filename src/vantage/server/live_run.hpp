@@ -13,7 +13,8 @@
 namespace vantage {
 
 /// One run that is shown to any number of browsers while it goes on: the document of docs/report-data.md, and the
-/// events that changed it. Writers never wait for readers; a reader that fell behind finds a gap and reads the whole
+/// events that changed it. Writers wait for no connection, at most for the document to be put into text, which is once
+/// for each change that somebody asks about; a reader that fell behind finds a gap and reads the whole
 /// document. Every member may be called from any thread.
 class LiveRun {
  public:

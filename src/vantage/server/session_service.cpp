@@ -31,8 +31,11 @@ HttpAnswer json_answer(const Json& json, int status = 200) {
           .body = std::make_shared<const std::string>(json.dump(-1, ' ', false, Json::error_handler_t::replace))};
 }
 
-std::string name_of(const std::filesystem::path& folder) {
-  return std::filesystem::absolute(folder).lexically_normal().filename().string();
+/// Whether a robot that errs by no more than the options say may have been sent to `view`.
+bool is_near(const View& believed, const View& view, const ScanPlanOptions& options) {
+  const double distance = (believed.position() - view.position()).norm();
+  const double angle = rotation_angle(believed.world_from_sensor.linear(), view.world_from_sensor.linear());
+  return distance <= options.pose_error && angle <= radians(options.pose_angle_error);
 }
 
 /// The view of this candidate in the plan. Throws HttpError 409 saying why where it is not to be had now.
@@ -48,7 +51,7 @@ const Evaluation& view_of(const Plan& plan, int candidate) {
 }  // namespace
 
 SessionService::SessionService(const std::filesystem::path& folder, LiveRun& run)
-    : page_(SessionFolder::options_of(folder), name_of(folder), run) {
+    : page_(SessionFolder::options_of(folder), name_of_folder(folder), run) {
   session_ = std::make_unique<Session>(folder, [this](const SessionModel& model) { was_merged(model); });
   upload_ = upload_options(session_->options().reading);
   try {
@@ -82,7 +85,7 @@ void SessionService::was_merged(const SessionModel& model) {
     page_fault_ = concat("the page does not show all scans: ", error.what());
   }
   const std::lock_guard lock(mutex_);
-  taken_.reset();
+  if (taken_ && model.model().scans.back().candidate == taken_->candidate) taken_.reset();
   wants_plan_ = true;
   plan_wanted_.notify_all();
 }
@@ -172,7 +175,11 @@ int SessionService::store(SessionScan scan) {
           ": must be one of the views 0 .. ", views - 1);
   {
     const std::lock_guard lock(mutex_);
-    if (taken_ && scan.candidate.value_or(taken_->candidate) == taken_->candidate) {
+    // Where the scan does not say, its pose does: others may send scans while somebody is on the way.
+    const bool is_of_taken =
+        taken_ && (scan.candidate ? *scan.candidate == taken_->candidate
+                                  : is_near(scan.believed, taken_->view, session_->options().scene));
+    if (is_of_taken) {
       scan.candidate = taken_->candidate;
       if (!scan.commanded) scan.commanded = taken_->view;
     }

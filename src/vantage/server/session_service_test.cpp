@@ -115,7 +115,12 @@ TEST_F(SessionServiceTest, AViewIsTakenSkippedAndPlannedAgain) {
   EXPECT_EQ(s.status()["taken"]["candidate"], best);
   EXPECT_EQ(Json::parse(s.post("/next", Json{{"candidate", second}}.dump())->body)["pose"], ranking[1]["pose"]);
   EXPECT_EQ(Json::parse(*s.run.document())["take"]["candidate"], second);
-  EXPECT_EQ(Json::parse(s.add(plate_form())->body)["commanded"], ranking[1]["pose"]);
+  // A scan from elsewhere is not the one of the view that somebody goes to.
+  EXPECT_EQ(Json::parse(s.add(plate_form())->body)["candidate"], -1);
+  EXPECT_EQ(s.status()["taken"]["candidate"], second);
+  const Json there = Json::parse(s.add(part("candidate", std::to_string(second)) + plate_form())->body);
+  EXPECT_EQ(there["commanded"], ranking[1]["pose"]);
+  EXPECT_EQ(there["candidate"], second);
   EXPECT_EQ(s.status()["taken"], nullptr);
   EXPECT_EQ(s.post("/skip", Json{{"candidate", best}, {"reason", "a cable"}}.dump())->status, 200);
   EXPECT_EQ(s.status()["skipped"], Json::array({{{"index", best}, {"reason", "a cable"}}}));

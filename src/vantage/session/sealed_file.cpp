@@ -3,20 +3,25 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <fstream>
+
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
 
 namespace vantage {
 namespace {
 
-std::string seal_of(std::string_view content) {
-  const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size());
-  return fmt::format("\ncrc32 {:08x}\n", sum);
-}
+constexpr std::string_view seal_start = "\ncrc32 ";
+
+std::string seal_of(std::string_view content) { return fmt::format("{}{}\n", seal_start, checksum_of(content)); }
 
 constexpr std::size_t seal_size = 16;
 
 }  // namespace
+
+std::string checksum_of(std::string_view content) {
+  return fmt::format("{:08x}", crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size()));
+}
 
 std::string sealed(std::string_view content) { return std::string(content) + seal_of(content); }
 
@@ -32,6 +37,15 @@ void write_sealed(const std::filesystem::path& path, std::string_view content) {
   file.write(content);
   file.write(seal_of(content));
   file.commit();
+}
+
+std::string seal_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string seal(seal_size, '\0');
+  file.seekg(-static_cast<std::streamoff>(seal_size), std::ios::end);
+  file.read(seal.data(), static_cast<std::streamsize>(seal_size));
+  require(file.good() && seal.starts_with(seal_start), path.string(), ": has no checksum");
+  return seal.substr(seal_start.size(), 8);
 }
 
 std::string read_sealed(const std::filesystem::path& path) {

@@ -45,6 +45,11 @@ void Session::replay() {
     } catch (const std::exception& error) {
       leave_out(number, error.what());
     }
+    const auto same = waiting ? number_of_key_.find(waiting->scan.key) : number_of_key_.end();
+    if (same != number_of_key_.end()) {
+      folder_.pass_over(number, fmt::format("it has the key of scan {}", same->second));
+      continue;
+    }
     ++stored_;
     if (waiting) note_key(*waiting);
     if (waiting) integrate_one(*waiting, folder_.located(number));
@@ -76,11 +81,17 @@ void Session::integrate_one(const Waiting& waiting, const std::optional<Located>
     model_is_whole_ = true;
     if (!known) store_located(waiting.number, found);
     if (state()) publish();
-    on_scan_(*model_);
   } catch (const std::exception& error) {
     leave_out(waiting.number, error.what());
     model_is_whole_ = false;
     merge_again();
+    return;
+  }
+  try {
+    on_scan_(*model_);
+  } catch (const std::exception& error) {
+    warn(fmt::format("scan {} was merged, but whoever follows the session did not hear of it: {}", waiting.number,
+                     error.what()));
   }
 }
 
@@ -88,10 +99,14 @@ void Session::store_located(int number, const Located& found) {
   try {
     folder_.store_located(number, found);
   } catch (const Error& error) {
-    // The scan itself is safe, and registration will find the same again.
-    const std::lock_guard looking(looking_);
-    warnings_.emplace_back(error.what());
+    warn(error.what());  // the scan itself is safe, and registration will find the same again
   }
+}
+
+void Session::warn(const std::string& what) {
+  constexpr std::size_t most_warnings = 100;
+  const std::lock_guard looking(looking_);
+  if (warnings_.size() < most_warnings) warnings_.push_back(what);
 }
 
 void Session::leave_out(int number, const std::string& why) {

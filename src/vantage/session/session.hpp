@@ -25,7 +25,7 @@ struct SessionStatus {
   std::map<int, std::string> skipped;
   std::map<int, std::string> left_out;  // scans that are safe on disk but could not be read or merged, with the reason
   std::vector<std::string> dropped;     // what opening it left out
-  std::vector<std::string> warnings;    // what could not be written since
+  std::vector<std::string> warnings;    // what could not be written or shown since
 };
 
 /// A reconstruction that lives in a folder over hours and restarts: scans are added to it and views asked of it.
@@ -43,7 +43,7 @@ class Session {
   /// Opens a session and merges its scans again where they were registered before. Throws InputError where it is none,
   /// Error where another process has it open.
   /// `on_scan` hears of the model after each scan, those merged again while opening too, in the thread that merges;
-  /// next() and status() know of the scan by then.
+  /// next() and status() know of the scan by then. What it throws becomes a warning: the model stays as it is.
   using OnScan = std::function<void(const SessionModel&)>;
   explicit Session(
       const std::filesystem::path& folder, OnScan on_scan = [](const SessionModel&) {});
@@ -71,8 +71,9 @@ class Session {
   /// The fused cloud in the box; waits for a registration that goes on.
   [[nodiscard]] PointCloud cloud();
   /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10). Scans may be
-  /// added during that and after it.
-  void finish(const RunPage& page);
+  /// added during that and after it. Throws InputError where files of these names are there that no session wrote,
+  /// unless they are to be overwritten.
+  void finish(const RunPage& page, ForeignFiles foreign = ForeignFiles::refuse);
 
  private:
   struct Waiting {
@@ -86,6 +87,7 @@ class Session {
   void integrate_one(const Waiting& waiting, const std::optional<Located>& known);
   void store_located(int number, const Located& found);
   void leave_out(int number, const std::string& why);
+  void warn(const std::string& what);
   void merge_again();
   void publish();
   void change_skipped(int candidate, const std::optional<std::string>& reason);

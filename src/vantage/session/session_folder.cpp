@@ -1,6 +1,7 @@
 #include "vantage/session/session_folder.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -20,6 +21,10 @@ namespace fs = std::filesystem;
 constexpr const char* data_folder = "session";
 constexpr const char* options_file = "options.yaml";
 constexpr const char* skipped_file = "skipped.json";
+constexpr std::string_view format_line = "# vantage session, format ";
+constexpr int format = 2;  // 1 had no checksum at the end of options.yaml
+constexpr std::string_view checksum_line = "# crc32 ";
+constexpr int largest_number = 999'999'999;
 constexpr const char* in_use = "another process has this session open; end it, or wait for it";
 
 /// The number that a file's name stands for, where it has this ending.
@@ -28,42 +33,86 @@ std::optional<int> number_of(const fs::path& file, const char* ending) {
   const std::string stem = file.stem().string();
   int number = 0;
   const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (error != std::errc() || end != stem.data() + stem.size() || number < 0) return std::nullopt;
+  if (error != std::errc() || end != stem.data() + stem.size() || number < 0 || number > largest_number)
+    return std::nullopt;
   return number;
 }
 
-void create_folders(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw Error(fmt::format("cannot create the session {}: {}", path.string(), error.message()));
+/// The options as YAML, with the format before and their checksum behind them as comments.
+std::string options_text(ScanPlanningOptions options) {
+  const std::string text = fmt::format("{}{}\n{}", format_line, format, options_as_yaml(option_fields(options)));
+  return fmt::format("{}{}{}\n", text, checksum_line, checksum_of(text));
+}
+
+/// Throws InputError where the bytes are not what options_text() made, or another program did that came before it.
+void require_whole_options(std::string_view bytes, const std::string& name) {
+  int found = 0;
+  if (bytes.starts_with(format_line)) {
+    const std::string_view rest = bytes.substr(format_line.size());
+    std::from_chars(rest.data(), rest.data() + rest.size(), found);
+  }
+  require(found >= 1, name, ": is damaged; its first line must be '", format_line, format, "'");
+  require(found <= format, name, ": has format ", found, "; this program knows ", format,
+          ", take the one that made the session, or a newer one");
+  if (found == 1) return;
+  const std::size_t last = bytes.rfind(checksum_line);
+  require(last != std::string_view::npos, name, ": is damaged: cut off, it has no checksum");
+  require(bytes.substr(last) == fmt::format("{}{}\n", checksum_line, checksum_of(bytes.substr(0, last))), name,
+          ": is damaged; its checksum does not fit");
+}
+
+bool holds_scans(const fs::path& data) {
+  for (const auto& entry : fs::directory_iterator(data)) {
+    for (const char* ending : {".scan", ".damaged"})
+      if (number_of(entry.path(), ending)) return true;
+  }
+  return false;
+}
+
+/// The session may be opened from anywhere: options that name files hold from there too.
+void make_absolute(ScanPlanningOptions& options) {
+  const auto absolute = [](std::string& file) {
+    if (!file.empty()) file = fs::absolute(file).lexically_normal().string();
+  };
+  if (options.planning.robot) absolute(*options.planning.robot);
+  if (options.planning.package) options.planning.package = absolute_packages(*options.planning.package, {});
+  if (options.reading.hand_eye_is_file()) absolute(options.reading.hand_eye);
+  // These are looked for in the scans' folder too: only what is there from here is meant from here.
+  std::error_code ignored;
+  for (std::string* file : {&options.reading.poses, &options.reading.intrinsics, &options.reading.masks})
+    if (fs::exists(*file, ignored)) absolute(*file);
 }
 
 }  // namespace
 
-bool SessionFolder::is_session(const fs::path& path) { return fs::exists(path / data_folder / options_file); }
+bool SessionFolder::is_session(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path / data_folder / options_file, ignored);
+}
 
 void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& options) {
   options.validate();
-  (void)scene_in(session_box(options), options.scene);
+  const ScanScene scene = scene_in(session_box(options), options.scene);
+  const VoxelMap fits_in_memory(scene.scene);
+  options.require_can_plan(scene.scene);
   const fs::path data = path / data_folder;
-  require(!fs::exists(data / options_file), path.string(),
-          ": already is a session; add scans to it or give another folder");
   create_folders(data);
   const FolderLock lock(data, in_use);
+  require(!is_session(path), path.string(), ": already is a session; add scans to it or give another folder");
+  require(!holds_scans(data), data.string(), ": holds the scans of a session whose ", options_file,
+          " is gone; put that back, or give another folder");
   ScanPlanningOptions copy = options;
-  // The session may be opened from anywhere; numbers stand as they are.
-  const auto make_absolute = [](std::string& file) { file = fs::absolute(file).lexically_normal().string(); };
-  if (copy.planning.robot) make_absolute(*copy.planning.robot);
-  if (copy.planning.package) copy.planning.package = absolute_packages(*copy.planning.package, {});
-  if (copy.reading.hand_eye_is_file()) make_absolute(copy.reading.hand_eye);
-  write_file_atomically(data / options_file, "# vantage session, format 1\n" + options_as_yaml(option_fields(copy)));
+  make_absolute(copy);
+  write_file_atomically(data / options_file, options_text(std::move(copy)));
 }
 
 ScanPlanningOptions SessionFolder::options_of(const fs::path& path) {
   const fs::path file = path / data_folder / options_file;
-  require(fs::exists(file), path.string(), ": is no session; make one with `vantage session new`");
+  require(is_session(path), path.string(), ": is no session; make one with `vantage session new`");
   ScanPlanningOptions options;
-  set_options_from_yaml(option_fields(options), read_file(file), file.string());
+  const std::string text = read_file(file);
+  require_whole_options(text, file.string());
+  set_options_from_yaml(option_fields(options), text, file.string());
   options.validate();
   try {
     options.load_robot_model();
@@ -83,12 +132,18 @@ SessionFolder::SessionFolder(const fs::path& path)
 
 void SessionFolder::list_files() {
   std::vector<fs::path> unfinished;
+  std::set<int> known;  // numbers that some file has
   for (const auto& entry : fs::directory_iterator(data_)) {
     const fs::path& file = entry.path();
     if (file.extension() == ".tmp") unfinished.push_back(file);
     if (const auto number = number_of(file, ".scan")) scans_.push_back(*number);
-    for (const char* ending : {".scan", ".damaged"}) next_ = std::max(next_, number_of(file, ending).value_or(-1) + 1);
+    for (const char* ending : {".scan", ".damaged"})
+      if (const auto number = number_of(file, ending)) known.insert(*number);
+    // One whose scan is gone: its number must not be another scan's.
+    next_ = std::max(next_, number_of(file, ".located").value_or(-1) + 1);
   }
+  if (!known.empty()) next_ = std::max(next_, *known.rbegin() + 1);
+  report_missing(known);
   std::sort(scans_.begin(), scans_.end());
   std::sort(unfinished.begin(), unfinished.end());
   for (const fs::path& file : unfinished) {
@@ -98,12 +153,26 @@ void SessionFolder::list_files() {
   }
 }
 
+void SessionFolder::report_missing(const std::set<int>& known) {
+  constexpr std::size_t most_named = 10;
+  std::size_t missing = static_cast<std::size_t>(next_) - known.size();
+  std::size_t named = 0;
+  for (int number = 0; missing > 0 && named < most_named; ++number) {
+    if (known.contains(number)) continue;
+    dropped_.push_back(fmt::format("scan {} is missing: its file {} is gone", number, file(number, ".scan").string()));
+    ++named;
+    --missing;
+  }
+  if (missing > 0) dropped_.push_back(fmt::format("{} more scans are missing: their files are gone", missing));
+}
+
 void SessionFolder::read_skipped() {
   const fs::path file = data_ / skipped_file;
-  if (!fs::exists(file)) return;
+  std::error_code error_code;
+  if (fs::symlink_status(file, error_code).type() == fs::file_type::not_found) return;
   try {
     skipped_ = parse_skipped_views(read_sealed(file), file.string());
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {
     dropped_.push_back(fmt::format("forgot which views were skipped: {}", error.what()));
   }
 }
@@ -114,7 +183,18 @@ fs::path SessionFolder::file(int number, const char* ending) const {
 
 int SessionFolder::store(const SessionScan& scan) {
   const int number = next_;
-  write_sealed(file(number, ".scan"), scan_bytes(scan));
+  if (number > largest_number) throw Error(fmt::format("{}: has no number left for a scan", data_.string()));
+  const fs::path path = file(number, ".scan");
+  std::error_code ignored;
+  fs::remove(file(number, ".located"), ignored);  // of a scan that had this number before; bound to that one anyhow
+  try {
+    write_sealed(path, scan_bytes(scan));
+  } catch (const SyncError& error) {
+    if (::unlink(path.c_str()) == 0) throw;
+    // It cannot be taken back either. Its number is used up, so that opening finds this scan or none under it.
+    ++next_;
+    throw Error(fmt::format("{}; it may be there when the session is opened again", error.what()));
+  }
   scans_.push_back(number);
   ++next_;
   return number;
@@ -135,20 +215,30 @@ void SessionFolder::set_aside(int number, const std::string& why) {
   const fs::path kept = file(number, ".damaged");
   std::error_code error;
   fs::rename(file(number, ".scan"), kept, error);
-  scans_.erase(std::remove(scans_.begin(), scans_.end(), number), scans_.end());
-  dropped_.push_back(fmt::format("left out scan {}, kept as {}: {}", number, kept.string(), why));
+  std::erase(scans_, number);
+  dropped_.push_back(error ? fmt::format("left out scan {}: {} (it cannot be renamed to {}: {})", number, why,
+                                         kept.string(), error.message())
+                           : fmt::format("left out scan {}, kept as {}: {}", number, kept.string(), why));
 }
 
+void SessionFolder::pass_over(int number, const std::string& why) {
+  std::erase(scans_, number);
+  dropped_.push_back(fmt::format("left out scan {}: {}", number, why));
+}
+
+std::string SessionFolder::seal_of_scan(int number) const { return seal_of_file(file(number, ".scan")); }
+
 void SessionFolder::store_located(int number, const Located& found) const {
-  write_sealed(file(number, ".located"), located_text(found));
+  write_sealed(file(number, ".located"), located_text(found, seal_of_scan(number)));
 }
 
 std::optional<Located> SessionFolder::located(int number) const {
   const fs::path path = file(number, ".located");
   try {
-    if (fs::exists(path)) return parse_located(read_sealed(path), path.string());
-  } catch (const InputError&) {
-    // Registration finds the same again.
+    const StoredLocated stored = parse_located(read_sealed(path), path.string());
+    if (stored.scan_checksum == seal_of_scan(number)) return stored.located;
+  } catch (const std::exception&) {
+    // Missing, damaged, not readable or of another scan: registration finds the same again.
   }
   return std::nullopt;
 }

@@ -37,10 +37,10 @@ SessionModel::SessionModel(const ScanPlanningOptions& options)
 Located SessionModel::add(int number, const SessionScan& scan, const std::optional<Located>& known) {
   KeepingRegistrar registrar(*registrar_, known);
   const ScanOrigin origin{scan.name, scan.candidate.value_or(-1), commanded(scan)};
-  note_candidate(scan, scans_.add(origin, scan.scan, scan.believed, registrar));
+  const ScanRecord& record = scans_.add(origin, scan.scan, scan.believed, registrar);
+  note_candidate(scan, record);
   numbers_.push_back(number);
-  sum_of_distances_ += (sensor_position(scan.scan, scan.believed) - box_.center()).norm();
-  if (!box_was_seen_) box_was_seen_ = points_in(box_, scan.scan, scan.believed) > 0;
+  if (record.merged && !box_was_seen_) box_was_seen_ = points_in(box_, scan.scan, record.registered) > 0;
   const auto* image = std::get_if<ImageScan>(&scan.scan);
   if (image != nullptr && !camera_) camera_ = image->image.camera;
   return registrar.found();
@@ -59,10 +59,7 @@ void SessionModel::note_candidate(const SessionScan& scan, const ScanRecord& rec
   }
 }
 
-double SessionModel::radius() const {
-  if (given_radius_ || numbers_.empty()) return given_radius_.value_or(0);
-  return sum_of_distances_ / static_cast<double>(numbers_.size());
-}
+double SessionModel::radius() const { return given_radius_ ? *given_radius_ : scans_.sensor_distance(); }
 
 SessionState SessionModel::state() const {
   return {.map = model().map,

@@ -15,7 +15,7 @@ struct SessionState {
   double radius = 0;                     // of the view sphere
   std::optional<RangeCamera> camera;     // of the first depth image
   std::map<int, std::string> set_aside;  // candidates whose scans failed since the map changed last, with the reason
-  bool box_was_seen = false;             // some scan has a point in the box
+  bool box_was_seen = false;             // some merged scan has a point in the box
   std::optional<ErrorLearner> learner;   // where the options ask for it: what the robot's errors have taught
 };
 
@@ -30,7 +30,8 @@ class SessionModel {
   [[nodiscard]] const ObjectModel& model() const { return scans_.model(); }
   /// Of the scans in the session's folder, in the order of model().scans.
   [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }
-  /// Of the view sphere, metres: as given, or the mean distance of the sensor so far; 0 before the first scan.
+  /// Of the view sphere, metres: as given, or the median distance of the sensor from the box's center at the scans that
+  /// were merged; 0 before the first.
   [[nodiscard]] double radius() const;
   /// Of the first depth image.
   [[nodiscard]] const std::optional<RangeCamera>& camera() const { return camera_; }
@@ -50,8 +51,7 @@ class SessionModel {
   std::vector<int> numbers_;
   std::optional<RangeCamera> camera_;
   std::map<int, std::string> set_aside_;
-  double sum_of_distances_ = 0;  // between box and sensor, metres
-  bool box_was_seen_ = false;
+  bool box_was_seen_ = false;  // by a merged scan
 };
 
 /// The box of a session's options. Throws InputError where they have none.

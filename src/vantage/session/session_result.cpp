@@ -16,7 +16,7 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
   const std::vector<OptionField> fields = option_fields(options);
   RunDescription description;
   description.command = "session";
-  description.object = std::filesystem::absolute(session.folder()).lexically_normal().filename().string();
+  description.object = name_of_folder(session.folder());
   description.program = VANTAGE_VERSION;
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
   description.config = "# vantage session new ANOTHER_FOLDER --config THIS_FILE\n" + options_as_yaml(fields);
@@ -28,13 +28,13 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
 
 }  // namespace
 
-void Session::finish(const RunPage& page) {
+void Session::finish(const RunPage& page, ForeignFiles foreign) {
   const std::lock_guard finishing(finishing_);
   const auto start = Clock::now();
   const SessionPlan last = next();
   const SessionState& state = *last.state;
   require(!state.scans.empty(), folder().string(), ": ", last.why_finished);
-  RunFolder run(folder(), describe_run(*this, state, session_planner(options(), state, {})));
+  RunFolder run(folder(), describe_run(*this, state, session_planner(options(), state, {})), foreign);
   // The scans once more from the disk, so that others may be added meanwhile; the report shows the map after each.
   SessionModel model(options());
   for (const int number : state.numbers) {
@@ -43,7 +43,7 @@ void Session::finish(const RunPage& page) {
     run.add_scan(model.model().scans.back(), scan.scan, model.model(), nullptr);
   }
   RunSummary summary;
-  summary.object = std::filesystem::absolute(folder()).lexically_normal().filename().string();
+  summary.object = name_of_folder(folder());
   summary.stop_reason = last.why_finished;
   run.finish(model.model(), summary, last.plan, std::chrono::duration<double>(Clock::now() - start).count(), page);
 }

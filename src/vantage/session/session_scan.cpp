@@ -10,6 +10,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/json_text.hpp"
+#include "vantage/files/plain_text.hpp"
 
 namespace vantage {
 namespace {
@@ -18,9 +19,17 @@ using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "scans are stored as they lie in memory");
 
+constexpr std::string_view any_first_word = "vantage-scan-";
 constexpr std::string_view first_word = "vantage-scan-1 ";
 constexpr double farthest = 1e6;  // metres, as for the scene
 constexpr std::size_t most_values = std::size_t{1} << 28U;
+
+bool is_of_newer_format(std::string_view bytes) {
+  if (!bytes.starts_with(any_first_word)) return false;
+  const std::string_view number = bytes.substr(any_first_word.size(), bytes.find(' ') - any_first_word.size());
+  return !number.empty() && number.size() < 4 && number != "1" && number != "0" &&
+         number.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 bool is_near(const Vec3& point) { return point.cwiseAbs().maxCoeff() <= farthest; }
 
@@ -128,6 +137,7 @@ std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 void SessionScan::validate() const {
   require_pose(believed, concat("scan ", name, ": its pose"));
   if (commanded) require_pose(*commanded, concat("scan ", name, ": the commanded pose"));
+  require_plain_text(key, concat("scan ", name, ": its key"));
   require(!candidate || *candidate >= 0, "scan ", name, ": candidate = ", candidate.value_or(0),
           ": must not be negative");
   if (const auto* image = std::get_if<ImageScan>(&scan)) {
@@ -169,11 +179,14 @@ std::string scan_bytes(const SessionScan& scan) {
     append(arrays, points.normals);
     append(arrays, points.origins);
   }
-  return concat(first_word, line(header), "\n", arrays);
+  std::string bytes = concat(first_word, line(header), "\n");
+  bytes.append(arrays);
+  return bytes;
 }
 
 SessionScan parse_scan(std::string_view bytes, const std::string& name) {
   const std::size_t end = bytes.find('\n');
+  if (is_of_newer_format(bytes)) throw NewerFormat(concat(name, ": was written by a newer version of the program"));
   require(bytes.starts_with(first_word) && end != std::string_view::npos, name, ": is no scan of a session");
   const nlohmann::json header = parse_json(bytes.substr(first_word.size(), end - first_word.size()), name);
   bytes.remove_prefix(end + 1);
@@ -201,8 +214,9 @@ SessionScan parse_scan(std::string_view bytes, const std::string& name) {
   return scan;
 }
 
-std::string located_text(const Located& located) {
+std::string located_text(const Located& located, const std::string& scan_checksum) {
   Json json;
+  json["scan_crc32"] = scan_checksum;
   json["registered"] = pose_columns(located.view.world_from_sensor);
   json["accepted"] = located.accepted;
   json["overlap"] = located.overlap;
@@ -212,9 +226,10 @@ std::string located_text(const Located& located) {
   return line(json);
 }
 
-Located parse_located(std::string_view bytes, const std::string& name) {
+StoredLocated parse_located(std::string_view bytes, const std::string& name) {
   const nlohmann::json json = parse_json(bytes, name);
-  Located located;
+  StoredLocated stored{{}, text(json, "scan_crc32", name)};
+  Located& located = stored.located;
   located.view.world_from_sensor = pose(json, "registered", name);
   const nlohmann::json& accepted = member(json, "accepted", name);
   require(accepted.is_boolean(), name, ": accepted must be true or false");
@@ -223,7 +238,7 @@ Located parse_located(std::string_view bytes, const std::string& name) {
   located.residual = number(json, "residual", name);
   located.verdict = text(json, "verdict", name);
   located.detail = text(json, "detail", name);
-  return located;
+  return stored;
 }
 
 }  // namespace vantage

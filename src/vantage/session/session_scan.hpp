@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "vantage/core/error.hpp"
 #include "vantage/map/scan.hpp"
 #include "vantage/model/registrar.hpp"
 
@@ -18,17 +19,31 @@ struct SessionScan {
   std::optional<View> commanded = {};  // where the sensor was sent; without it, the candidate's view at that time
   std::string key = {};                // the sender's own: a session stores only one scan with it
 
-  /// Throws InputError where the scan or its pose has numbers that are not finite.
+  /// Throws InputError where the scan or its pose has numbers that are not finite, or the key is not plain text: it
+  /// would not be known again.
   void validate() const;
 };
 
 /// All of a scan as bytes, the numbers to the last bit: a line of JSON, then arrays, little endian.
 [[nodiscard]] std::string scan_bytes(const SessionScan& scan);
-/// The scan that scan_bytes() wrote. Throws InputError starting with `name` where the bytes are something else.
+/// A file of a newer version of the program, which is as it should be.
+class NewerFormat : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The scan that scan_bytes() wrote. Throws InputError starting with `name` where the bytes are something else, and
+/// NewerFormat.
 [[nodiscard]] SessionScan parse_scan(std::string_view bytes, const std::string& name);
 
-/// What registration found, as JSON that parse_located() reads to the last bit.
-[[nodiscard]] std::string located_text(const Located& located);
-[[nodiscard]] Located parse_located(std::string_view bytes, const std::string& name);
+/// What registration found for the scan with this checksum (sealed_file.hpp), as JSON that parse_located() reads to the
+/// last bit.
+[[nodiscard]] std::string located_text(const Located& located, const std::string& scan_checksum);
+/// Throws InputError starting with `name` where the bytes are something else.
+struct StoredLocated {
+  Located located;
+  std::string scan_checksum;
+};
+[[nodiscard]] StoredLocated parse_located(std::string_view bytes, const std::string& name);
 
 }  // namespace vantage

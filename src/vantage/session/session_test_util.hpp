@@ -37,4 +37,19 @@ inline SessionScan plate_from(const Vec3& position) {
   });
 }
 
+inline bool same_map(const VoxelMap& a, const VoxelMap& b) {
+  const IndexBox& box = a.enclosure();
+  for (int z = box.min.z(); z <= box.max.z(); ++z) {
+    for (int y = box.min.y(); y <= box.max.y(); ++y) {
+      for (int x = box.min.x(); x <= box.max.x(); ++x) {
+        const Index3 voxel(x, y, z);
+        if (a.label(voxel) != b.label(voxel)) return false;
+        const SurfaceVoxel *left = a.surface(voxel), *right = b.surface(voxel);
+        if (left != nullptr && (left->normal_sum != right->normal_sum || left->quality != right->quality)) return false;
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace vantage
