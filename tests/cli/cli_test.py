@@ -66,6 +66,8 @@ class Misuse(CommandLine):
             (["--positioning-error", "0.1,-0.1,0"], "positioning-error"),
             (["--utility", "best"], "utility 'best' is unknown"),
             (["--search", "random"], "exhaustive, multi-resolution"),
+            (["--positioning-error", "1e20,0,0"], "positioning-error"),
+            (["--error-mean", "1e9,0,0,0,0,0"], "error-mean"),
             (["--robot", "/dev/null"], "/dev/null"),
             (["--registration", "magic"], "truth, none, icp"),
             (["--initial-view", "80"], "must be one of the candidates 0 .. 79"),

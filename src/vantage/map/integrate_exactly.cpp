@@ -3,6 +3,7 @@
 
 #include "vantage/core/parallel.hpp"
 #include "vantage/map/integrate.hpp"
+#include "vantage/map/sensor_distance.hpp"
 #include "vantage/map/voxel_ray.hpp"
 
 namespace vantage {
@@ -46,6 +47,7 @@ void trace(const VoxelMap& map, const SightLine& line, Marks& marks) {
 
 IntegrationReport integrate_exactly(VoxelMap& map, std::span<const SightLine> lines) {
   IntegrationReport report;
+  for (const SightLine& line : lines) require_near(map.grid(), line.origin);
   for (const SightLine& line : lines) {
     if (!line.is_hit) continue;
     const Index3 index = map.grid().index_of(line.hit_point());

@@ -6,6 +6,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/map/block_pixels.hpp"
+#include "vantage/map/sensor_distance.hpp"
 #include "vantage/map/voxel_ray.hpp"
 
 namespace vantage {
@@ -199,6 +200,7 @@ IntegrationReport Integrator::integrate(VoxelMap& map, const RangeImage& image,
   image.validate();
   require(normals_in_sensor.empty() || normals_in_sensor.size() == image.depth.size(),
           "integrate: ", normals_in_sensor.size(), " normals for ", image.depth.size(), " pixels");
+  require_near(map.grid(), view.position());
   const StepCounts steps(map.layout().size, map.grid().index_of(view.position()) - map.enclosure().min);
   if (steps.span > StepCounts::largest_span || rays_are_faster(map, image.camera, view)) {
     return integrate_exactly(map, sight_lines(image, normals_in_sensor, view, reference));

@@ -178,5 +178,37 @@ TEST(Integrator, SizesMustAgree) {
   EXPECT_THROW(integrate(map, image, {}, view), InputError);
 }
 
+TEST(Integrator, LabelsEnclosuresWhoseStepsDoNotFitIn16Bits) {
+  const Grid grid{Vec3::Zero(), 0.01, Index3(16384, 16384, 2)};
+  VoxelMap map(grid, grid.all());
+  // Along the diagonal to a hit beyond 32767 steps.
+  const Vec3 from(-0.005, -0.0051, 0.005);
+  const Index3 end(16380, 16380, 0);
+  const Vec3 hit = grid.center(end);
+  RangeImage image{camera_from_apertures(radians(1), radians(1), {1, 1}), {}};
+  image.camera.max_depth = 300;
+  image.depth = {static_cast<float>((hit - from).norm())};
+  const IntegrationReport report = integrate(map, image, {}, view_towards(from, hit));
+  EXPECT_EQ(report.new_occupied, 1);
+  EXPECT_EQ(map.occupied_voxels(), std::vector<Index3>{end});
+  EXPECT_EQ(map.label({0, 0, 0}), Label::empty);
+  EXPECT_EQ(map.label({16300, 16300, 0}), Label::empty);
+  EXPECT_EQ(map.count(Label::occluded) + map.count(Label::occplane), 6) << "3 + 3 steps behind the hit";
+  EXPECT_EQ(map.label({5, 16000, 0}), Label::unmarked);
+}
+
+TEST(Integrator, RefusesASensorFartherOffThanVoxelsCanBeCounted) {
+  const Grid grid{Vec3::Zero(), 0.001, Index3(10, 10, 10)};
+  VoxelMap map(grid, grid.all());
+  RangeImage image{camera_from_apertures(radians(45), radians(45), {2, 2}),
+                   std::vector<float>(4, RangeImage::no_return)};
+  for (const double distance : {1e8, 1e20, 1e300}) {
+    const View view = view_towards(Vec3(0, 0, distance), Vec3::Zero());
+    EXPECT_THROW((void)integrate(map, image, {}, view), InputError);
+    EXPECT_THROW((void)integrate_exactly(map, sight_lines(image, {}, view)), InputError);
+  }
+  EXPECT_NO_THROW((void)integrate(map, image, {}, view_towards(Vec3(0, 0, 1e5), Vec3::Zero())));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/options/reconstruct_options.hpp"
+#include "vantage/robot/error_limits.hpp"
 
 namespace vantage {
 namespace {
@@ -32,6 +33,8 @@ Vec6 in_radians(Vec6 values) {
 void require_not_negative(const char* option, const char* unit, const auto& values) {
   require(values.allFinite() && (values.array() >= 0).all(), option, " = ", values.transpose(), " ", unit,
           ": standard deviations must not be negative");
+  require((values.array() <= largest_position_error).all(), option, " = ", values.transpose(), " ", unit,
+          ": standard deviations must be at most ", largest_position_error);
 }
 
 void require_covariance(const char* option, const std::optional<Vec6>& upper) {
@@ -72,6 +75,15 @@ Said believed_of(const ErrorOptions& o) {
 bool says_what_is_believed(const ErrorOptions& o) {
   return o.believed_error || o.believed_orientation_error || o.believed_mean || o.believed_covariance ||
          o.believed_growth;
+}
+
+/// That the error can be made of the options at all; what is wrong is said with the name of the option.
+void require_possible(const char* option, const auto& make_error) {
+  try {
+    (void)make_error();
+  } catch (const InputError& error) {
+    throw InputError(concat(option, ": ", error.what()));
+  }
 }
 
 std::shared_ptr<const PoseErrorModel> turntable(const Vec3& deviations, const Vec3& center) {
@@ -137,6 +149,8 @@ void ErrorOptions::validate_errors(const Vec3& center) const {
             "error-growth");
   }
   require_independent("error-covariance", "error-growth", robot_of(*this));
+  require_possible("positioning-error, error-mean, orientation-error or error-growth",
+                   [&] { return robot_error(center); });
   if (learns_error()) {
     validate_learning(*this);
   } else {
@@ -145,6 +159,8 @@ void ErrorOptions::validate_errors(const Vec3& center) const {
     require(!believed_error || !believed_covariance,
             "believed-error and believed-covariance say the same thing twice: leave one out");
     require_independent("believed-covariance", "believed-growth", believed);
+    require_possible("believed-error, believed-mean, believed-orientation-error or believed-growth",
+                     [&] { return believed_error_model(center); });
   }
   if (convolve != "on" && convolve != "normalised") return;
   const View somewhere = view_towards(center + Vec3(1, 0, 0), center);

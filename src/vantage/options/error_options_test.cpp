@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "support/test_folder.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/options/reconstruct_options.hpp"
 
@@ -134,6 +135,32 @@ TEST(ErrorOptions, AskTheTurntableForEachCandidate) {
   const auto model = options.believed_error_model(Vec3::Zero());
   EXPECT_NEAR(model->of_move(here, here).covariance(1, 1), std::pow(2 * radians(1), 2), 1e-12);
   EXPECT_NEAR(model->of_move(here, there).covariance(0, 0), std::pow(2 * radians(1), 2), 1e-12);
+}
+
+TEST(ErrorOptions, ErrorsThatNoRobotHasAreRefusedByName) {
+  const auto refusal = [](const auto& change) {
+    ReconstructOptions options;
+    change(options);
+    return input_error_of([&] { options.validate(); });
+  };
+  EXPECT_THAT(refusal([](auto& o) { o.positioning_error = Vec3(1e20, 0, 0); }), HasSubstr("positioning-error = 1e+20"));
+  EXPECT_THAT(refusal([](auto& o) { o.error_mean[0] = 1e9; }), HasSubstr("error-mean"));
+  EXPECT_THAT(refusal([](auto& o) { o.orientation_error = Vec3(0, 200, 0); }), HasSubstr("orientation-error"));
+  EXPECT_THAT(refusal([](auto& o) {
+                o.error_covariance = ErrorOptions::Vec6::Zero();
+                (*o.error_covariance)[0] = 1e300;
+              }),
+              HasSubstr("error-covariance"));
+  EXPECT_THAT(refusal([](auto& o) {
+                o.convolve = "on";
+                o.believed_error = "1e9,0,0";
+              }),
+              HasSubstr("believed-error"));
+  EXPECT_THAT(refusal([](auto& o) {
+                o.convolve = "on";
+                o.believed_error = "learn:1e9,1,1";
+              }),
+              HasSubstr("prior deviation"));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "vantage/options/robot_file.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 
 #include "vantage/arm/arm.hpp"

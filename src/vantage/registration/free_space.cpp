@@ -41,7 +41,7 @@ FreeSpace::FreeSpace(const RangeImage& image, double margin)
   const auto [columns, rows] = image.camera.resolution;
   const double depth = middle_depth(image);
   const auto radius = [&](double half, int count) {
-    return std::min(count, static_cast<int>(std::ceil(margin * count / (2 * half * depth))));
+    return static_cast<int>(std::min<double>(count, std::ceil(margin * count / (2 * half * depth))));
   };
   const auto width = static_cast<std::size_t>(columns);
   for (int row = 0; row < rows; ++row) {

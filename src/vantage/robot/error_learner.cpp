@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/robot/error_limits.hpp"
 
 namespace vantage {
 namespace {
@@ -45,8 +46,9 @@ Block posterior(const std::vector<PoseError::Vector>& differences, int first, co
 }  // namespace
 
 void ErrorLearnerOptions::validate() const {
-  require(prior_deviation.allFinite() && (prior_deviation.array() > 0).all(),
-          "learning the error: prior deviation = ", prior_deviation.transpose(), ": must be positive");
+  require((prior_deviation.array() > 0).all() && (prior_deviation.array() <= largest_position_error).all(),
+          "learning the error: prior deviation = ", prior_deviation.transpose(), " m: must be positive, at most ",
+          largest_position_error);
   for (const auto& [name, value] : {std::pair{"orientation", prior_orientation},
                                     {"mean weight", prior_mean_weight},
                                     {"covariance weight", prior_covariance_weight}}) {

@@ -1,6 +1,7 @@
 #include "vantage/robot/error_model.hpp"
 
 #include "vantage/core/error.hpp"
+#include "vantage/robot/error_limits.hpp"
 
 namespace vantage {
 
@@ -10,8 +11,9 @@ GrowingError::GrowingError(const PoseError& base, const PoseError::Vector& devia
   require(PoseError::Matrix(base_.covariance.diagonal().asDiagonal()) == base_.covariance,
           "growing error: the covariance at distance 0 has entries off its diagonal; the deviations a + b d need "
           "independent axes");
-  require(per_metre_.allFinite() && (per_metre_.array() >= 0).all(), "growing error: deviations per metre ",
-          per_metre_.transpose(), ": must not be negative");
+  constexpr double largest = 1e3;  // a robot that ends up a thousand times as far off as it moved
+  require(per_metre_.allFinite() && (per_metre_.array() >= 0).all() && (per_metre_.array() <= largest).all(),
+          "growing error: deviations per metre ", per_metre_.transpose(), ": must be from 0 to ", largest);
 }
 
 PoseError GrowingError::of_move(const View& from, const View& to) const {
@@ -26,8 +28,8 @@ TurntableArmError::TurntableArmError(const Deviations& deviations, const Vec3& c
     : deviations_(deviations), center_(center) {
   for (const auto& [name, value] :
        {std::pair{"azimuth", deviations.azimuth}, {"elevation", deviations.elevation}, {"reach", deviations.reach}}) {
-    require(value >= 0 && std::isfinite(value), "turntable error: deviation of the ", name, " = ", value,
-            ": must not be negative");
+    require(value >= 0 && value <= largest_position_error, "turntable error: deviation of the ", name, " = ", value,
+            ": must be from 0 to ", largest_position_error);
   }
 }
 

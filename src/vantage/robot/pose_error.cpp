@@ -1,8 +1,10 @@
 #include "vantage/robot/pose_error.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/robot/error_limits.hpp"
 
 namespace vantage {
 namespace {
@@ -27,8 +29,10 @@ PoseError::PoseError(const PositioningError& position) {
 }
 
 PoseError PoseError::from_deviations(const Vec3& sigma_position, const Vec3& sigma_orientation) {
-  require(sigma_orientation.allFinite() && (sigma_orientation.array() >= 0).all(),
-          "orientation error: standard deviations ", sigma_orientation.transpose(), " rad: must not be negative");
+  require(sigma_orientation.allFinite() && (sigma_orientation.array() >= 0).all() &&
+              (sigma_orientation.array() <= largest_turn_error).all(),
+          "orientation error: standard deviations ", sigma_orientation.transpose(), " rad: must be from 0 to ",
+          largest_turn_error, " rad");
   PoseError error(PositioningError::from_deviations(sigma_position));
   error.covariance.bottomRightCorner<3, 3>() = sigma_orientation.cwiseAbs2().asDiagonal();
   return error;
@@ -46,6 +50,13 @@ void PoseError::validate() const {
   const double scale = covariance.cwiseAbs().maxCoeff();
   require((covariance - covariance.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale,
           "pose error: the covariance is not symmetric");
+  for (int i = 0; i < 6; ++i) {
+    const double largest = i < 3 ? largest_position_error : largest_turn_error;
+    const char* const unit = i < 3 ? " m" : " rad";
+    require(std::abs(mean[i]) <= largest, "pose error: mean ", mean[i], unit, ": must be within ", largest, unit);
+    require(covariance(i, i) <= largest * largest, "pose error: a standard deviation of ", std::sqrt(covariance(i, i)),
+            unit, ": must be at most ", largest, unit);
+  }
   if (scale <= 0) return;
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance).eigenvalues()[0];
   require(least >= -1e-9 * scale, "pose error: the covariance has the eigenvalue ", least,

@@ -4,6 +4,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/random.hpp"
+#include "vantage/robot/error_model.hpp"
 
 namespace vantage {
 namespace {
@@ -90,6 +91,25 @@ TEST(PoseError, NamesWhatIsWrong) {
   error = {};
   error.mean[5] = std::nan("");
   EXPECT_THROW(error.validate(), InputError);
+}
+
+TEST(PoseError, RefusesErrorsThatNoRobotHas) {
+  for (const double absurd : {1e20, 1e9, 1e300}) {
+    EXPECT_THROW((void)PositioningError::from_deviations(Vec3(absurd, 0, 0)), InputError);
+    PoseError error;
+    error.mean[1] = absurd;
+    EXPECT_THROW(error.validate(), InputError);
+    error = {};
+    error.covariance(2, 2) = absurd;
+    if (absurd > 1e12) EXPECT_THROW(error.validate(), InputError);
+    error = {};
+    error.covariance(4, 4) = absurd;
+    EXPECT_THROW(error.validate(), InputError);
+    EXPECT_THROW((void)PoseError::from_deviations(Vec3::Zero(), Vec3(0, absurd, 0)), InputError);
+    EXPECT_THROW(GrowingError(PoseError(), PoseError::Vector::Constant(absurd)), InputError);
+    EXPECT_THROW(TurntableArmError({.azimuth = absurd}, Vec3::Zero()), InputError);
+  }
+  EXPECT_NO_THROW(PoseError::from_deviations(Vec3(10, 0, 0), Vec3(0, radians(180), 0)).validate());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* marker = ".vantage-run";
 constexpr const char* lock_file = ".lock";
-constexpr const char* in_use =
+constexpr const char* folder_in_use =
     "another run or another experiment is writing there; wait for it or choose another --out";
 constexpr std::string_view marker_start = "# vantage run, format 1\ncommand: ";
 
@@ -126,7 +126,7 @@ void remove_old_output(const fs::path& folder, const OutputNames& names) {
 OutputFolder::OutputFolder(const fs::path& path, const OutputNames& names, ForeignFiles foreign) : path_(path) {
   if (foreign == ForeignFiles::refuse) require_ours(path, names);  // before anything is written there
   create_folders(path);
-  lock_.emplace(path, in_use);
+  lock_.emplace(path, folder_in_use);
   if (foreign == ForeignFiles::refuse) require_ours(path, names);
   remove_unfinished(path / marker);
   write_file_atomically(path / marker, fmt::format("{}{}\n", marker_start, names.command));

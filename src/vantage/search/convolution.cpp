@@ -109,10 +109,16 @@ std::vector<double> convolve_separably(std::span<const double> utilities, const 
   return result;
 }
 
+/// What an error may cost whose axes do not err independently: cells of a kernel, a gigabyte.
+constexpr double most_cells = 1 << 27;
+
 std::vector<double> convolve_directly(std::span<const double> utilities, const CandidateGrid& grid,
                                       const PositioningError& error, const ConvolutionOptions& options) {
   const int n = grid.cells_per_side;
   const int width = 2 * n - 1;
+  require(std::pow(width, 3) <= most_cells, "convolution: the covariance is not diagonal, so that a view cube of ", n,
+          " cells per side needs a kernel of ", width, " x ", width, " x ", width,
+          " cells; must be at most 256 per side, or use samples");
   const ErrorDensity density(error, 0.5 * grid.spacing);
   std::vector<double> kernel;
   kernel.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
@@ -171,7 +177,11 @@ double mean_around(const Index3& cell, const DenseGrid& dense, const CandidateGr
                    const ConvolutionOptions& options) {
   const ErrorDensity density(error, 0.5 * grid.spacing);
   const Vec3 reach = error.mean.cwiseAbs() + support_on_grid * error.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  const Index3 width = (reach.array() / grid.spacing.array()).ceil().cast<int>().max(1);
+  const Vec3 cells = (reach.array() / grid.spacing.array()).ceil().max(1);
+  require((2 * cells.array() + 1).prod() <= most_cells, "convolution: an error that reaches ", reach.transpose(),
+          " m covers ", (2 * cells.array() + 1).transpose(), " cells of the view cube; must be at most ", most_cells,
+          " in all: use a coarser view cube, or samples");
+  const Index3 width = cells.cast<int>();
   double sum = 0;
   double weights = 0;
   for (int z = -width.z(); z <= width.z(); ++z) {

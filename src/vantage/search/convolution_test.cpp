@@ -196,5 +196,20 @@ TEST(PositioningError, NamesTheBadValue) {
   EXPECT_THROW(error.validate(), InputError);
 }
 
+TEST(Convolution, RefusesKernelsThatDoNotFitInMemory) {
+  Candidates wide;
+  wide.kind = Candidates::Kind::grid;
+  wide.views = {View{}};
+  wide.grid = CandidateGrid{300, Vec3::Constant(0.01), {Index3::Zero()}};
+  PositioningError tilted = PositioningError::from_deviations(Vec3(0.02, 0.02, 0.02));
+  tilted.covariance(0, 1) = tilted.covariance(1, 0) = 1e-4;
+  const std::vector<double> one{1.0};
+  EXPECT_THROW((void)convolve(one, wide, tilted), InputError);
+  const std::vector<PositioningError> far{PositioningError::from_deviations(Vec3(5, 5, 5))};
+  EXPECT_THROW((void)convolve_each(one, wide, far), InputError);
+  wide.grid->cells_per_side = 3;
+  EXPECT_NO_THROW((void)convolve(one, wide, tilted));
+}
+
 }  // namespace
 }  // namespace vantage

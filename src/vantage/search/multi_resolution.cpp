@@ -9,7 +9,8 @@ namespace {
 
 /// n_i of eq. 16.
 std::size_t views_kept(int b, int stage, int stages) {
-  return static_cast<std::size_t>(std::llround(std::pow(b, stages - stage)));
+  constexpr double more_than_any = 1e9;
+  return static_cast<std::size_t>(std::llround(std::min(std::pow(b, stages - stage), more_than_any)));
 }
 
 }  // namespace

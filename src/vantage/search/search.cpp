@@ -7,10 +7,15 @@
 
 namespace vantage {
 
+namespace {
+constexpr int most_fixed_rays = 16384;  // per axis, as of a camera
+}  // namespace
+
 void RayChoice::validate() const {
   if (kind != Kind::fixed) return;
-  require(resolution.columns > 0 && resolution.rows > 0, "rays = ", resolution.columns, "x", resolution.rows,
-          ": must be `sensor`, `ideal` or a positive number of columns and rows such as 79x79");
+  const auto [columns, rows] = resolution;
+  require(columns > 0 && rows > 0 && columns <= most_fixed_rays && rows <= most_fixed_rays, "rays = ", columns, "x",
+          rows, ": must be `sensor`, `ideal` or columns and rows of 1 to ", most_fixed_rays, " such as 79x79");
 }
 
 Resolution ViewEvaluation::ideal(int candidate) const {
@@ -63,11 +68,13 @@ Evaluation ViewEvaluation::with_cost(Evaluation result, double cost) const {
 
 void ViewEvaluation::score(std::vector<Evaluation>& evaluations,
                            std::optional<std::chrono::steady_clock::time_point> deadline) const {
+  // What judges by counts asks nothing about rays, and views may be too far off to have ideal ones.
+  const bool needs_ideal = !std::holds_alternative<CountUtility>(utility.score);
   std::vector<ViewToJudge> views;
   views.reserve(evaluations.size());
   for (const Evaluation& each : evaluations) {
-    views.push_back({each.candidate, each.view, each.resolution, ideal(each.candidate), normalised_cost(each.candidate),
-                     each.seen, each.factors});
+    views.push_back({each.candidate, each.view, each.resolution, needs_ideal ? ideal(each.candidate) : each.resolution,
+                     normalised_cost(each.candidate), each.seen, each.factors});
   }
   const std::vector<double> scores =
       judge(utility, {map, visibility, camera, current, scanned, seed, views, deadline, refused});

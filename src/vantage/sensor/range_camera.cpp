@@ -2,16 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "vantage/core/error.hpp"
 
 namespace vantage {
 
+namespace {
+
+constexpr int most_rays = 16384;  // per axis: their number fits in an int, their bits in memory
+
+void require_rays(Resolution resolution, std::string_view what) {
+  const auto [columns, rows] = resolution;
+  require(columns > 0 && rows > 0, what, " = ", columns, "x", rows, ": must be at least 1x1");
+  require(columns <= most_rays && rows <= most_rays, what, " = ", columns, "x", rows, ": must be at most ", most_rays,
+          "x", most_rays);
+}
+
+}  // namespace
+
 void RangeCamera::validate() const {
-  require(resolution.columns > 0 && resolution.rows > 0, "resolution = ", resolution.columns, "x", resolution.rows,
-          ": must be at least 1x1");
-  require(resolution.columns <= 16384 && resolution.rows <= 16384, "resolution = ", resolution.columns, "x",
-          resolution.rows, ": must be at most 16384x16384");
+  require_rays(resolution, "resolution");
   for (const double tangent : {left, right, top, bottom}) {
     require(std::isfinite(tangent), "field of view: border tangent ", tangent, " must be a finite number");
   }
@@ -25,6 +36,7 @@ void RangeCamera::validate() const {
 }
 
 RayGrid RangeCamera::rays(Resolution ray_resolution) const {
+  require_rays(ray_resolution, "rays of a view");
   return {ray_resolution, 0.5 * (left + right), 0.5 * (right - left), 0.5 * (top + bottom), 0.5 * (bottom - top)};
 }
 
@@ -72,9 +84,13 @@ Resolution ideal_resolution(const RangeCamera& camera, double voxel_length, doub
   const double angle = std::asin(std::min(1.0, voxel_length / std::max(distance, voxel_length)));
   const auto count = [angle](double aperture) {
     // The tolerance keeps an aperture that is a whole multiple from being rounded up by the last bit.
-    return std::max(1, static_cast<int>(std::ceil(aperture / angle - 1e-9)));
+    return std::max(1.0, std::ceil(aperture / angle - 1e-9));
   };
-  return {count(camera.horizontal_aperture()), count(camera.vertical_aperture())};
+  const double columns = count(camera.horizontal_aperture()), rows = count(camera.vertical_aperture());
+  require(columns <= most_rays && rows <= most_rays, "rays: ", distance, " m away from voxels of ", voxel_length,
+          " m one per voxel would be ", columns, "x", rows, ", more than ", most_rays, "x", most_rays,
+          "; take longer voxels, nearer views, or rays of a fixed resolution");
+  return {static_cast<int>(columns), static_cast<int>(rows)};
 }
 
 }  // namespace vantage

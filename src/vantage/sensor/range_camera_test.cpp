@@ -109,5 +109,23 @@ TEST(IdealResolution, NearerThanAVoxelItStaysDefined) {
   EXPECT_THROW((void)ideal_resolution(square_camera(45, 320), 0.02, std::nan("")), InputError);
 }
 
+TEST(Resolution, CountsAllRaysOfTheLargestCamera) { EXPECT_EQ((Resolution{16384, 16384}.rays()), 268'435'456); }
+
+TEST(RangeCamera, RefusesMoreRaysThanIndicesReach) {
+  const RangeCamera camera = square_camera(45, 320);
+  EXPECT_EQ(camera.rays({16384, 16384}).resolution, (Resolution{16384, 16384}));
+  for (const Resolution& beyond : {Resolution{16385, 5}, Resolution{5, 1 << 30}, Resolution{0, 5}, Resolution{5, -1}})
+    EXPECT_THAT([&] { (void)camera.rays(beyond); }, ThrowsMessage<InputError>(HasSubstr("rays of a view = ")));
+}
+
+// 45 degrees at d voxels: about 0.7854 d rays per axis.
+TEST(IdealResolution, BeyondTheLimitIsRefusedWithWhatItWouldBe) {
+  const RangeCamera camera = square_camera(45, 320);
+  EXPECT_EQ(ideal_resolution(camera, 1, 20'000).columns, 15'708);
+  EXPECT_THAT([&] { (void)ideal_resolution(camera, 1, 21'000); },
+              ThrowsMessage<InputError>(HasSubstr("would be 16494x16494, more than 16384x16384")));
+  EXPECT_THROW((void)ideal_resolution(camera_from_apertures(3.1, 3.1, {10, 10}), 1, 1e6), InputError);
+}
+
 }  // namespace
 }  // namespace vantage

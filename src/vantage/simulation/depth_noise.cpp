@@ -38,9 +38,10 @@ float disturbed(double depth, const RangeCamera& camera, const DepthNoise& noise
 }  // namespace
 
 void DepthNoise::validate() const {
-  require(std::isfinite(a) && a >= 0, "depth noise: a = ", a, " m: must not be negative");
-  require(std::isfinite(b) && b >= 0, "depth noise: b = ", b, " 1/m: must not be negative");
-  require(std::isfinite(quantum) && quantum >= 0, "depth noise: quantum = ", quantum, " m: must not be negative");
+  constexpr double largest = 1e6;  // metres, as for the scene
+  require(a >= 0 && a <= largest, "depth noise: a = ", a, " m: must be from 0 to ", largest);
+  require(b >= 0 && b <= largest, "depth noise: b = ", b, " 1/m: must be from 0 to ", largest);
+  require(quantum >= 0 && quantum <= largest, "depth noise: quantum = ", quantum, " m: must be from 0 to ", largest);
   if (dropout_from_incidence) {
     require(*dropout_from_incidence >= 0 && *dropout_from_incidence < right_angle,
             "depth noise: dropout_from_incidence = ", degrees(*dropout_from_incidence),

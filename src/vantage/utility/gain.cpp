@@ -8,7 +8,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
-#include "vantage/visibility/exposed_voxels.hpp"
+#include "vantage/visibility/voxel_place.hpp"
 
 namespace vantage {
 namespace {
@@ -66,6 +66,52 @@ struct MetVoxels {
   }
 };
 
+/// Numbers of met voxels within their class: bit planes in the order of places, with a count before every word, so that
+/// the largest map takes little more than its own planes.
+class MetPlaces {
+ public:
+  explicit MetPlaces(std::size_t voxels) {
+    for (std::vector<std::uint64_t>* plane : {&met_, &odd_, &upper_}) plane->resize((voxels + 63) / 64);
+  }
+
+  [[nodiscard]] bool contains(std::uint32_t place) const { return (met_[place >> 6U] >> (place & 63U) & 1U) != 0; }
+  void add(std::uint32_t place, std::size_t of_class) {
+    const std::uint64_t bit = std::uint64_t{1} << (place & 63U);
+    met_[place >> 6U] |= bit;
+    if ((of_class & 1U) != 0) odd_[place >> 6U] |= bit;
+    if ((of_class & 2U) != 0) upper_[place >> 6U] |= bit;
+  }
+  /// After the last add(): how many there are of each class.
+  [[nodiscard]] std::array<std::size_t, classes> number() {
+    std::array<std::uint32_t, classes> used{};
+    before_.resize(met_.size());
+    for (std::size_t word = 0; word < met_.size(); ++word) {
+      before_[word] = used;
+      for (std::size_t c = 0; c < classes; ++c) used[c] += static_cast<std::uint32_t>(std::popcount(of_class(c, word)));
+    }
+    return {used[0], used[1], used[2], used[3]};
+  }
+  struct Slot {
+    std::size_t of_class, number;
+  };
+  /// Of a place that was added.
+  [[nodiscard]] Slot slot(std::uint32_t place) const {
+    const std::size_t word = place >> 6U;
+    const unsigned bit = place & 63U;
+    const std::size_t c = (odd_[word] >> bit & 1U) + 2 * (upper_[word] >> bit & 1U);
+    const std::uint64_t below = of_class(c, word) & ((std::uint64_t{1} << bit) - 1);
+    return {c, before_[word][c] + static_cast<std::size_t>(std::popcount(below))};
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t of_class(std::size_t c, std::size_t word) const {
+    return met_[word] & ((c & 1U) != 0 ? odd_[word] : ~odd_[word]) & ((c & 2U) != 0 ? upper_[word] : ~upper_[word]);
+  }
+
+  std::vector<std::uint64_t> met_, odd_, upper_;  // whether met, and the two bits of the class
+  std::vector<std::array<std::uint32_t, classes>> before_;
+};
+
 std::size_t class_of(const std::array<BitPlane, 3>& near, const BitLayout& layout, const Index3& local) {
   const std::size_t word = layout.word(local);
   for (std::size_t c = 0; c < near.size(); ++c) {
@@ -93,42 +139,22 @@ MetVoxels meet(const Choice& choice, const GainOptions& options) {
 
   const BitLayout& layout = choice.map.layout();
   const std::array<BitPlane, 3> near = unknown_near_occupied(choice.map);
-  // First numbers within the class, then places in all classes.
-  struct Slot {
-    std::uint8_t of_class = 0;
-    std::int32_t number = -1;
-  };
-  const Index3& size = layout.size;
-  std::vector<Slot> slots(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) *
-                          static_cast<std::size_t>(size.z()));
-  const auto slot_of = [&](const Index3& local) -> Slot& {
-    return slots[(static_cast<std::size_t>(local.z()) * static_cast<std::size_t>(size.y()) +
-                  static_cast<std::size_t>(local.y())) *
-                     static_cast<std::size_t>(size.x()) +
-                 static_cast<std::size_t>(local.x())];
-  };
-  std::array<std::int32_t, classes> used{};
+  MetPlaces places(static_cast<std::size_t>(layout.size.cast<std::int64_t>().prod()));
   for (const SightEvaluator::PackedSight& sight : sights) {
-    for (const std::uint32_t voxel : sight.unknown) {
-      const Index3 local = PackedVoxel{voxel}.index();
-      Slot& slot = slot_of(local);
-      if (slot.number >= 0) continue;
-      slot.of_class = static_cast<std::uint8_t>(class_of(near, layout, local));
-      slot.number = used[slot.of_class]++;
+    for (const std::uint32_t place : sight.unknown) {
+      if (!places.contains(place)) places.add(place, class_of(near, layout, voxel_at(layout, place)));
     }
   }
-  for (std::size_t c = 0; c < classes; ++c) {
-    met.first_word[c + 1] = met.first_word[c] + (static_cast<std::size_t>(used[c]) + 63) / 64;
-  }
+  const std::array<std::size_t, classes> used = places.number();
+  for (std::size_t c = 0; c < classes; ++c) met.first_word[c + 1] = met.first_word[c] + (used[c] + 63) / 64;
   met.of_view.resize(sights.size());
   met.occupied.resize(sights.size());
   parallel_for(sights.size(), [&](std::size_t i) {
     met.of_view[i].assign(met.first_word[classes], 0);
     met.occupied[i] = sights[i].occupied;
-    for (const std::uint32_t voxel : sights[i].unknown) {
-      const Slot& slot = slot_of(PackedVoxel{voxel}.index());
-      const auto number = static_cast<std::size_t>(slot.number);
-      met.of_view[i][met.first_word[slot.of_class] + number / 64] |= std::uint64_t{1} << (number % 64);
+    for (const std::uint32_t place : sights[i].unknown) {
+      const auto [of_class, number] = places.slot(place);
+      met.of_view[i][met.first_word[of_class] + number / 64] |= std::uint64_t{1} << (number % 64);
     }
   });
   return met;

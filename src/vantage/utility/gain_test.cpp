@@ -129,6 +129,59 @@ TEST(Gain, GivesWhatItsDefinitionGivesOnRandomScenes) {
   EXPECT_GT(positive, 100);
 }
 
+/// Few voxels of each kind in an enclosure that is longer along one axis than ten bits count.
+VoxelMap long_map(int axis, Random& random) {
+  Index3 size = Index3::Constant(7);
+  size[axis] = 1100;
+  const Grid grid{Vec3::Zero(), 0.02, size};
+  VoxelMap map(grid, grid.all());
+  for (int z = 0; z < size.z(); ++z) {
+    for (int y = 0; y < size.y(); ++y) {
+      for (int x = 0; x < size.x(); ++x) {
+        const int kind = random.index(20);
+        if (kind < 12) map.set_label({x, y, z}, Label::empty);
+        if (kind == 12 || kind == 13) map.set_label({x, y, z}, Label::occluded);
+        if (kind == 14) (void)map.add_point({x, y, z}, random.unit_vector(), 0.5);
+      }
+    }
+  }
+  map.update_occplane();
+  return map;
+}
+
+TEST(Gain, GivesWhatItsDefinitionGivesInEnclosuresBeyondTenBits) {
+  Random random(47);
+  int compared = 0, positive = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const VoxelMap map = long_map(axis, random);
+    const VisibilityEvaluator visibility(map);
+    const RangeCamera camera = camera_from_apertures(radians(50), radians(40), {64, 64});
+    std::vector<ViewToJudge> views;
+    for (int i = 0; i < 8; ++i) {
+      // Beside both ends: the voxels there differ in the bits beyond the tenth alone.
+      Vec3 target = Vec3::Constant(0.07);
+      target[axis] = 0.02 * (i % 2 == 0 ? 1060 : 36);
+      Vec3 position = target + 0.6 * random.unit_vector();
+      ViewToJudge view;
+      view.candidate = i;
+      view.view = view_towards(position, target);
+      view.ideal = {20, 20};
+      view.travel = random.uniform();
+      views.push_back(view);
+    }
+    const Choice choice{map, visibility, camera, views[0].view, {}, 1, views};
+    const std::vector<double> expected = gain_naively(choice, {});
+    const std::vector<double> scores = judge(gain_utility(), choice);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      EXPECT_EQ(scores[i], expected[i]) << "axis " << axis << ", view " << i;
+      ++compared;
+      positive += scores[i] > 0;
+    }
+  }
+  EXPECT_EQ(compared, 24);
+  EXPECT_GT(positive, 10);
+}
+
 TEST(Gain, CountsStepsThroughUnknownVoxelsOnly) {
   // Occupied, five unknown, an empty one, two unknown behind it; all around empty.
   const Grid grid{Vec3::Zero(), 1.0, Index3(9, 1, 1)};

@@ -1,9 +1,15 @@
 #include "vantage/utility/ray_information.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
 #include "vantage/core/parallel.hpp"
 
 namespace vantage {
 namespace {
+
+constexpr double most_steps = std::numeric_limits<std::uint16_t>::max();
 
 bool ends_occupied(RayVoxels voxels) { return voxels.back().label == Label::occupied; }
 bool is_behind(RayVoxels voxels) {
@@ -63,12 +69,12 @@ void KriegelGain::add(RayVoxels voxels) {
 }
 
 CellsBehindSurface::CellsBehindSurface(const Choice& choice)
-    : enclosure_(choice.map.enclosure()), limit_(std::round(reach / choice.map.grid().length)) {
+    : enclosure_(choice.map.enclosure()), limit_(std::min(std::round(reach / choice.map.grid().length), most_steps)) {
   const Index3 size = enclosure_.size();
   const Grid& grid = choice.map.grid();
   const LabelTable labels(choice.map);
   const auto per_slice = static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y());
-  const auto farthest = static_cast<std::uint16_t>(std::min(limit_, 65535.0));
+  const auto farthest = static_cast<std::uint16_t>(limit_);
   cells_.assign(per_slice * static_cast<std::size_t>(size.z()), farthest);
   parallel_for(static_cast<std::size_t>(size.z()), [&](std::size_t z) {
     for (std::size_t i = 0; i < per_slice; ++i) {

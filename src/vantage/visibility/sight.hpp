@@ -45,8 +45,8 @@ class SightEvaluator {
 
   /// Safe to call from several threads.
   [[nodiscard]] Sight see(const RangeCamera& camera, const View& view, Resolution resolution) const;
-  /// The same with less work: the number of occupied voxels, and the unknown ones as PackedVoxel bits with local
-  /// indices, each once, in no particular order.
+  /// The same with less work: the number of occupied voxels, and the unknown ones by their places in the enclosure
+  /// (voxel_place.hpp), each once, in no particular order.
   struct PackedSight {
     std::int64_t occupied = 0;
     std::vector<std::uint32_t> unknown;

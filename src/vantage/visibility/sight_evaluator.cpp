@@ -11,6 +11,7 @@
 #include "vantage/visibility/sight.hpp"
 #include "vantage/visibility/sight_batch.hpp"
 #include "vantage/visibility/surface_normals.hpp"
+#include "vantage/visibility/voxel_place.hpp"
 
 namespace vantage {
 namespace {
@@ -148,25 +149,19 @@ SightEvaluator::PackedSight SightEvaluator::see_packed(const RangeCamera& camera
                                                        Resolution resolution) const {
   PackedSight sight;
   const VoxelMap& map = prepared_->map;
+  const BitLayout& layout = map.layout();
   const std::vector<std::uint32_t>* voxels = prepared_->splat_view(camera, view, resolution);
   if (!voxels) {
     const Sight exact = see_past_grazing_exactly(map, camera, view, resolution, prepared_->pass);
     sight.occupied = static_cast<std::int64_t>(exact.occupied.size());
-    for (const Index3& voxel : exact.unknown) {
-      const Index3 local = voxel - map.enclosure().min;
-      const Label label = map.label(voxel);
-      const std::uint32_t kind = label == Label::unmarked   ? PackedVoxel::unmarked
-                                 : label == Label::occplane ? PackedVoxel::occplane
-                                                            : PackedVoxel::occluded;
-      sight.unknown.push_back(static_cast<std::uint32_t>(local.x()) | static_cast<std::uint32_t>(local.y()) << 10U |
-                              static_cast<std::uint32_t>(local.z()) << 20U | kind << 30U);
-    }
+    sight.unknown.reserve(exact.unknown.size());
+    for (const Index3& voxel : exact.unknown) sight.unknown.push_back(place_of(layout, voxel - map.enclosure().min));
     return sight;
   }
   const Vec3 axis = view.axis();
   for (const std::uint32_t voxel : *voxels) {
     if (PackedVoxel{voxel}.kind() != PackedVoxel::occupied) {
-      sight.unknown.push_back(voxel);
+      sight.unknown.push_back(place_of(layout, PackedVoxel{voxel}.index()));
     } else if (prepared_->counts({voxel}, camera, axis)) {
       ++sight.occupied;
     }

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "support/random_scenes.hpp"
 #include "vantage/visibility/visibility.hpp"
+#include "vantage/visibility/voxel_place.hpp"
 
 namespace vantage {
 namespace {
@@ -114,6 +118,28 @@ std::vector<SightFamily> families() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Visibility, RandomSights, ::testing::ValuesIn(families()));
+
+TEST(Sight, PlacesAreThoseOfTheVoxelsAlsoBeyondTenBits) {
+  Random random(5);
+  int places = 0;
+  for (const Index3& size : {Index3(1500, 5, 4), Index3(4, 1500, 5), Index3(5, 4, 1500), Index3(30, 20, 10)}) {
+    const Grid grid{Vec3::Zero(), 0.02, size};
+    VoxelMap map(grid, grid.all());
+    const Vec3 middle = 0.01 * size.cast<double>();
+    const View view = view_towards(middle + Vec3(0.4, 0.5, 0.6), middle + 0.9 * middle.cwiseProduct(Vec3(1, 1, 1)));
+    const SightEvaluator evaluator(map);
+    const RangeCamera camera = camera_from_apertures(radians(100), radians(100), {40, 40});
+    const SightEvaluator::PackedSight packed = evaluator.see_packed(camera, view, {40, 40});
+    std::vector<Index3> voxels;
+    for (const std::uint32_t place : packed.unknown) voxels.push_back(voxel_at(map.layout(), place));
+    std::sort(voxels.begin(), voxels.end(), [](const Index3& a, const Index3& b) {
+      return std::tuple(a.z(), a.y(), a.x()) < std::tuple(b.z(), b.y(), b.x());
+    });
+    EXPECT_EQ(voxels, see_past_grazing_exactly(map, camera, view, {40, 40}).unknown);
+    places += static_cast<int>(voxels.size());
+  }
+  EXPECT_GT(places, 200);
+}
 
 }  // namespace
 }  // namespace vantage
