@@ -175,7 +175,7 @@ class Hostile(OverHttp):
     def test_few_threads_are_enough_or_said(self):
         folder = self.new("threads")
         if os.geteuid() != 0:
-            self.skipTest("needs root, whose processes are not counted, to become somebody else")
+            self.skipTest("needs root, whose processes are not counted, to become another user")
         os.chmod(self.root, 0o755)
         for path in [folder, *folder.rglob("*")]:
             os.chown(path, 65534, 65534)

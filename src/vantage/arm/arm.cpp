@@ -39,7 +39,7 @@ class ArmMobility : public Mobility {
       if (!reason) reason = std::move(touching);
     }
     if (solutions.size() == 1) return reason;
-    return concat("in all ", solutions.size(), " ways to be there the arm touches something: ", *reason);
+    return concat("for all ", solutions.size(), " joint positions there the arm touches something: ", *reason);
   }
 
   [[nodiscard]] double least_cost(const RobotState& from, const View& to) const override {

@@ -164,7 +164,7 @@ TEST(ArmDescription, RefusesJointsInACircle) {
 // The parser of URDF hands bad values to printf() as a format.
 TEST(ArmDescription, RefusesFormatsInValues) {
   EXPECT_THAT(error_of(urdf_with("continuous'><origin xyz='0 0 %n%n%s'/><axis xyz='0 0 1'/>")),
-              HasSubstr("the sign % stands in an element"));
+              HasSubstr("an element has the sign %"));
   EXPECT_EQ(error_of("<!-- 100 % --> " + urdf_with("continuous'><axis xyz='0 0 1'/>")), "no error");
 }
 

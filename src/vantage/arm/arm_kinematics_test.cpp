@@ -47,7 +47,7 @@ TEST(ArmKinematics, TheJointsBehindAPoseAreFoundAgain) {
     found_again += is_among_them ? 1 : 0;
   }
   RecordProperty("solutions", static_cast<int>(solutions));
-  EXPECT_GE(found_again, 195) << "the search is numeric: a few of many ways to be somewhere may be missed";
+  EXPECT_GE(found_again, 195) << "the search is numeric: a few of many solutions may be missed";
   EXPECT_GT(solutions, 3U * poses) << "an arm like this has up to eight";
 }
 

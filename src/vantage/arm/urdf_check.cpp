@@ -63,7 +63,7 @@ void require_flat(std::string_view text, const std::string& name) {
       at = after_tag(text, at, name);
       // The parser hands bad values on to printf() as a format.
       require(text.substr(begin, at - begin).find('%') == std::string_view::npos, name,
-              ": not a robot description (URDF): the sign % stands in an element; only comments may have it");
+              ": not a robot description (URDF): an element has the sign %; only comments may have it");
       const bool is_empty = text[at - 1] == '>' && text[at - 2] == '/';
       depth += closes ? -1 : is_empty ? 0 : 1;
     }

@@ -230,7 +230,7 @@ void HttpConnections::Network::end(const Shared& connection) {
   open_ = connections_.size();
 }
 
-/// One more than there may be is told so; whoever comes then takes its place.
+/// One more than there may be gets 503; whoever comes then takes its place.
 awaitable<void> HttpConnections::Network::serve(Shared connection, bool is_full) {
   try {
     if (is_full) {

@@ -2,6 +2,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/server/random_name.hpp"
+#include "vantage/server/without_folders.hpp"
 
 namespace vantage {
 namespace {
@@ -45,10 +46,18 @@ void apply(Json& document, std::string_view event, const Json& data) {
   }
 }
 
+/// Options name files of this machine, which others see: their names are left.
+void hide_folders(Json& document) {
+  if (!document.contains("meta") || !document["meta"].is_object() || !document["meta"].contains("options")) return;
+  for (Json& value : document["meta"]["options"])
+    if (value.is_string()) value = without_folders(value.get<std::string>());
+}
+
 }  // namespace
 
 void LiveRun::begin(Json document) {
   require(document.is_object(), "the document of a run must be an object, is ", document.type_name());
+  hide_folders(document);
   const std::lock_guard lock(mutex_);
   document_ = std::move(document);
   ++run_;

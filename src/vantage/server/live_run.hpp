@@ -26,7 +26,7 @@ class LiveRun {
     std::uint64_t revision = 0;  // the last event that it has
   };
 
-  /// Shows `document` (RunData) from now on, with revision 0; readers are greeted anew.
+  /// Shows `document` (RunData) from now on, with revision 0; readers are greeted again.
   void begin(Json document);
   /// Changes the document by one event, `scan`, `plan`, `take`, `setup`, `state` or `result`, and tells the readers.
   /// Throws Error for other names and before begin().

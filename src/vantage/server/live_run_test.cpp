@@ -146,5 +146,14 @@ TEST(LiveRun, CloseWakesAWaitingReader) {
   EXPECT_EQ(run.next(reader, 60s), nullptr);
 }
 
+TEST(LiveRun, ShowsNoFolderOfTheMachine) {
+  LiveRun run;
+  run.begin({{"meta", {{"options", {{"voxel", "0.02"}, {"robot", "/srv/cell/arm.yaml"}, {"seed", 1}}}}}});
+  EXPECT_EQ(Json::parse(*run.document())["meta"]["options"],
+            Json({{"voxel", "0.02"}, {"robot", "arm.yaml"}, {"seed", 1}}));
+  run.begin({{"meta", 1}});
+  run.begin({{"meta", {{"options", "none"}}}});
+}
+
 }  // namespace
 }  // namespace vantage

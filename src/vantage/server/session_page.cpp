@@ -3,14 +3,12 @@
 #include "vantage/core/error.hpp"
 #include "vantage/runs/run_document.hpp"
 #include "vantage/runs/run_files.hpp"
-#include "vantage/server/without_folders.hpp"
 
 namespace vantage {
 
 SessionPage::SessionPage(const ScanPlanningOptions& options, const std::string& name, LiveRun& run)
     : run_(run), options_(options) {
-  for (const OptionField& field : option_fields(options_))
-    data_.options.emplace_back(field.name, without_folders(field.text()));
+  for (const OptionField& field : option_fields(options_)) data_.options.emplace_back(field.name, field.text());
   data_.command = "session";
   data_.object = name;
   data_.program = VANTAGE_VERSION;

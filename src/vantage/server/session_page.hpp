@@ -18,7 +18,7 @@ class SessionPage {
 
   /// The model after one scan more.
   void add_scan(const SessionModel& model);
-  /// What is planned on the scans so far; nothing is told where there are others by now.
+  /// What is planned on the scans so far; nothing is shown where there are others by now.
   void add_plan(const SessionPlan& plan);
   /// Somebody goes to take this view.
   void add_take(const Evaluation& view);
@@ -32,8 +32,8 @@ class SessionPage {
   LiveRun& run_;
   ScanPlanningOptions options_;
   RunData data_;           // without the scans, which the LiveRun has
-  std::size_t scans_ = 0;  // that were told of
-  double radius_ = 0;      // of the view sphere as it was told
+  std::size_t scans_ = 0;  // that are shown
+  double radius_ = 0;      // of the view sphere as it is shown
   bool has_camera_ = false;
   std::optional<CandidatePlan> plan_;  // on all scans so far
   bool is_finished_ = false;

@@ -107,7 +107,7 @@ void SessionService::integrate_stored() {
     try {
       (void)session_->integrate(number);
     } catch (const std::exception&) {
-      // The state of the session says it, and whoever waits for the scan is told.
+      // The state of the session says it, and whoever waits for the scan gets an error.
     }
     lock.lock();
     merged_up_to_ = std::max(merged_up_to_, number);
@@ -125,7 +125,7 @@ void SessionService::plan_for_page() {
     try {
       page_.add_plan(session_->next());
     } catch (const std::exception&) {
-      // Whoever asks for the next view is told.
+      // Whoever asks for the next view gets the error.
     }
     lock.lock();
   }
