@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 std::vector<Reader> readers() {
   std::vector<Reader> all = file_readers();
   all.insert(all.end(), option_readers().begin(), option_readers().end());
+  all.insert(all.end(), bag_readers().begin(), bag_readers().end());
   return all;
 }
 

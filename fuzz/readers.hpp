@@ -17,4 +17,7 @@ struct Reader {
 /// Readers of options, robots and bodies of HTTP requests, which need the planner.
 [[nodiscard]] const std::vector<Reader>& option_readers();
 
+/// Readers of ROS bags, their messages and their compression.
+[[nodiscard]] const std::vector<Reader>& bag_readers();
+
 }  // namespace vantage::fuzz

@@ -13,6 +13,7 @@ void add_experiment(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_export(CLI::App& program);
 void add_objects(CLI::App& program);
+void add_recording(CLI::App& program);
 void add_serve(CLI::App& program);
 void add_session(CLI::App& program);
 void add_view(CLI::App& program);

@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
   vantage::app::add_plan(program);
   vantage::app::add_session(program);
   vantage::app::add_doctor(program);
+  vantage::app::add_recording(program);
   vantage::app::add_evaluate(program);
   vantage::app::add_experiment(program);
   vantage::app::add_config(program);

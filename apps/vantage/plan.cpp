@@ -10,6 +10,7 @@
 #include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
+#include "recognised.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/model/scan_model.hpp"
 #include "vantage/options/robot_file.hpp"
@@ -61,6 +62,7 @@ void plan(PlanRequest& request) {
   load_robot(request.options.planning, request.given);
   request.options.validate_without_commands();
   const ScanSet set = open_scans(request.scans, request.options.reading);
+  if (!request.program.quiet) print_recognised(set);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
   ScanScene fitted = fit_scene(pending, request.options.scene);
@@ -113,7 +115,9 @@ void plan(PlanRequest& request) {
 void add_plan(CLI::App& program) {
   auto request = std::make_shared<PlanRequest>();
   CLI::App* command = program.add_subcommand("plan", "Take real scans and say where to look next, with the reasons");
-  command->add_option("scans", request->scans, "folder of depth frames or clouds with poses, or a Stanford .conf")
+  command
+      ->add_option("scans", request->scans,
+                   "folder of depth frames or clouds with poses, a ROS bag, or a Stanford .conf")
       ->required();
   command->add_option("--out", request->out,
                       "folder for the model, the map and the report; nothing is written without");

@@ -11,6 +11,7 @@
 #include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
+#include "recognised.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/options/robot_file.hpp"
@@ -63,7 +64,9 @@ void add(SessionRequest& request) {
   const ScanFolderOptions reading = reading_options(request, session);
   std::vector<ScanFile> files;
   for (const std::string& path : request.scans) {
-    for (ScanFile& file : open_scans(path, reading).scans) files.push_back(std::move(file));
+    ScanSet set = open_scans(path, reading);
+    if (!request.program.quiet) print_recognised(set);
+    for (ScanFile& file : set.scans) files.push_back(std::move(file));
   }
   require(!request.candidate || files.size() == 1, "candidate = ", request.candidate.value_or(0),
           ": is for one scan, there are ", files.size());
@@ -164,7 +167,7 @@ void add_session(CLI::App& program) {
   const auto for_add = std::make_shared<SessionRequest>();
   step =
       add_step(*session, "add", "Add scans with their poses; each is safe on disk once it is reported", for_add, add);
-  step->add_option("scans", for_add->scans, "depth frames, clouds, folders of them, or Stanford .conf files")
+  step->add_option("scans", for_add->scans, "depth frames, clouds, folders of them, ROS bags, or Stanford .conf files")
       ->required();
   step->add_option("--candidate", for_add->candidate, "the planned view that this one scan was taken from");
   add_options(*step, noting_fields(for_add));

@@ -15,7 +15,7 @@ LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 # Commands of the wrapper script, not of the program.
 WRAPPER_COMMANDS = {"test"}
 # Commands whose next word is a command too.
-COMMANDS_WITH_STEPS = {"session"}
+COMMANDS_WITH_STEPS = {"session", "recording"}
 
 
 def commands(text):

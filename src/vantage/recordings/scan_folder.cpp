@@ -14,6 +14,8 @@
 #include "vantage/formats/conf_file.hpp"
 #include "vantage/formats/depth_image.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
+#include "vantage/recordings/bag_frames.hpp"
+#include "vantage/recordings/frame_scans.hpp"
 #include "vantage/recordings/pose_source.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
 #include "vantage/sensor/organised_normals.hpp"
@@ -118,7 +120,8 @@ ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& fram
   camera.max_depth = options.depth_range[1];
   const DepthEncoding encoding = depth_encoding(options);
   const std::vector<Pose> poses = sensor_poses(folder, frames, options);
-  ScanSet set{{}, camera};
+  ScanSet set;
+  set.camera = camera;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const fs::path path = frames[i].path;
     const View view{poses[i]};
@@ -177,9 +180,19 @@ ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
   return set;
 }
 
+ScanSet open_bag_scans(const fs::path& path, const ScanFolderOptions& options) {
+  const BagOptions bag{.topic = options.topic,
+                       .frame = options.frame,
+                       .poses = options.poses,
+                       .intrinsics = options.intrinsics,
+                       .every = options.every};
+  return scans_of(open_bag_frames(path, bag), options);
+}
+
 ScanSet open_folder(const fs::path& folder, const ScanFolderOptions& options) {
   const std::vector<Found> frames = files_ending_with(folder, frame_endings);
   if (!frames.empty()) return open_depth_frames(folder, frames, options);
+  if (is_bag(folder)) return open_bag_scans(folder, options);
   const std::vector<Found> confs = files_ending_with(folder, conf_endings);
   require(confs.size() <= 1, folder.string(), ": has ", confs.size(), " .conf files; give the path of one");
   if (!confs.empty()) return open_conf(confs.front().path, options);
@@ -227,6 +240,7 @@ void ScanFolderOptions::validate() const {
           "depth range = ", depth_range[0], ",", depth_range[1], " m: must be NEAR,FAR with 0 <= NEAR < FAR");
   require(!no_return || (*no_return > 0 && *no_return <= 65535), "no-return = ", no_return.value_or(0),
           ": must be within 1 and 65535");
+  require(every >= 1, "every = ", every, ": must be at least 1");
   require(scanner_origin.allFinite(), "scanner origin: must be finite numbers");
 }
 
@@ -235,6 +249,7 @@ ScanSet open_scans(const fs::path& path, const ScanFolderOptions& options) {
   try {
     require(fs::exists(path), path.string(), ": there is no such file or folder");
     if (fs::is_directory(path)) return open_folder(path, options);
+    if (is_bag(path)) return open_bag_scans(path, options);
   } catch (const fs::filesystem_error& error) {
     throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.code().message()));
   }

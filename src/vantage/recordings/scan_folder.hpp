@@ -36,6 +36,12 @@ struct ScanFolderOptions {
   std::optional<Eigen::Matrix<double, 6, 1>> crop = std::nullopt;
   /// Frame of a cloud's points, sensor or world; then the pose says only where the sensor was.
   std::string cloud_frame = "sensor";
+  /// Of a bag: the topic with depth images or clouds, and the frame of /tf that is the world; empty: what the bag
+  /// suggests.
+  std::string topic = "";
+  std::string frame = "";
+  /// Of a bag: takes every n-th frame.
+  int every = 1;
 
   /// Throws InputError naming the option.
   void validate() const;
@@ -58,6 +64,9 @@ void describe(ScanFolderOptions& o, Field&& field) {
         "pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's");
   field("crop", o.crop, "m", "box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing");
   field("cloud-frame", o.cloud_frame, "", "frame of the points of clouds: sensor, or world");
+  field("topic", o.topic, "", "topic of a bag with depth images or clouds; the only one if not given");
+  field("frame", o.frame, "", "frame of a bag's /tf that is the world; the root of the sensor's tree if not given");
+  field("every", o.every, "", "takes every n-th frame of a bag");
   field("scanner-origin", o.scanner_origin, "m", "y,z of the sight lines' origin of a line scanner (.conf)");
 }
 
@@ -71,6 +80,8 @@ struct ScanFile {
 struct ScanSet {
   std::vector<ScanFile> scans;        // by name, numbers by value
   std::optional<RangeCamera> camera;  // of depth images
+  std::string description;            // of a recording: one line, what was recognised
+  std::vector<std::string> left_out;  // of a recording: frames and parts that could not be read, and why
 };
 
 /// The scans of
@@ -79,7 +90,8 @@ struct ScanSet {
 ///   `camera_info.yaml`, `intrinsics.json` ...) and `NAME.pose.txt` or `NAME.pose.json` each, or a trajectory whose
 ///   times are the names, or as long as there are frames;
 /// - a folder with clouds `NAME.ply`, `.pcd`, `.xyz`, `.xyzn` in the sensor's frame and such poses;
-/// - a Stanford `.conf` with its range grids, or the folder it lies in.
+/// - a Stanford `.conf` with its range grids, or the folder it lies in;
+/// - a bag of ROS 1 or ROS 2 (see is_bag()).
 /// Poses and intrinsics are read at once, images and clouds on demand. Throws InputError naming the file and what is
 /// missing.
 [[nodiscard]] ScanSet open_scans(const std::filesystem::path& path, const ScanFolderOptions& options = {});
