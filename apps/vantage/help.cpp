@@ -25,7 +25,8 @@ const std::vector<Group>& groups_of_scans() {
   static const std::vector<Group> groups{
       {"Scene", {"--box", "--voxel", "--views", "--radius"}},
       {"Reading scans",
-       {"--depth-scale", "--depth-range", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye", "--sensor"}},
+       {"--depth-scale", "--depth-range", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye", "--topic",
+        "--frame", "--every", "--sensor"}},
       {"Registration", {"--registration", "--pose-error", "--pose-angle-error"}},
       {"Planning", {"--utility", "--workspace", "--robot", "--deadline"}},
       {"Output", {"--out", "--overwrite", "--report", "--top", "--json", "--config"}}};
@@ -50,13 +51,15 @@ CommandHelp help_of(const std::string& command) {
   }
   if (command == "add") {
     return {{{"Reading scans",
-              {"--depth-scale", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye", "--candidate"}}},
+              {"--depth-scale", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye", "--topic", "--frame",
+               "--every", "--candidate"}}},
             "vantage session add object frame-000150.depth.png"};
   }
   if (command == "doctor") {
     return {{{"Scene", {"--box", "--voxel"}},
              {"Reading scans",
-              {"--depth-scale", "--depth-range", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye"}},
+              {"--depth-scale", "--depth-range", "--unit", "--poses", "--intrinsics", "--masks", "--hand-eye",
+               "--topic", "--frame"}},
              {"Output", {"--json"}}},
             "vantage doctor FRAMES --depth-range 0.25,1.5"};
   }
