@@ -75,7 +75,9 @@ TEST(Bag, ABagWithoutAnEndIsReadUpToIt) {
       const std::uint64_t count = messages_of(index, depth_topic);
       EXPECT_TRUE(counts.empty() || count <= *counts.begin()) << file << " of " << size << " bytes";
       counts.insert(count);
-      if (count < whole) EXPECT_THAT(bag->damage(), Not(IsEmpty())) << file << " of " << size << " bytes";
+      if (count < whole) {
+        EXPECT_THAT(bag->damage(), Not(IsEmpty())) << file << " of " << size << " bytes";
+      }
     }
     EXPECT_GE(counts.size(), 5U) << file << ": frames are lost one by one";
   }
