@@ -8,14 +8,17 @@
 #include "vantage/experiments/run_outcome.hpp"
 #include "vantage/files/json_text.hpp"
 #include "vantage/formats/camera_file.hpp"
+#include "vantage/formats/colmap_file.hpp"
 #include "vantage/formats/conf_file.hpp"
 #include "vantage/formats/depth_image.hpp"
 #include "vantage/formats/exr.hpp"
+#include "vantage/formats/float_images.hpp"
 #include "vantage/formats/map_file.hpp"
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/formats/nrrd.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
 #include "vantage/formats/pose_file.hpp"
+#include "vantage/formats/pose_list.hpp"
 #include "vantage/runs/stored_run_files.hpp"
 #include "vantage/session/sealed_file.hpp"
 #include "vantage/session/session_scan.hpp"
@@ -82,6 +85,9 @@ const std::vector<Reader>& file_readers() {
       {"intrinsics_text", "text", [](Bytes bytes) { (void)parse_intrinsics_text(bytes, "input"); }},
       {"pose_text", "text", [](Bytes bytes) { (void)parse_pose_text(bytes, "input"); }},
       {"raw_pose", "text", read_raw_pose},
+      {"pose_list", "text", [](Bytes bytes) { (void)parse_pose_list(bytes, "input"); }},
+      {"colmap_cameras", "text", [](Bytes bytes) { (void)parse_colmap_cameras(bytes, "input"); }},
+      {"colmap_images", "text", [](Bytes bytes) { (void)parse_colmap_images(bytes, "input"); }},
       {"trajectory", "text", [](Bytes bytes) { (void)parse_trajectory(bytes, "input"); }},
       {"conf", "text", [](Bytes bytes) { (void)parse_conf(bytes, "input"); }},
       {"depth_png", "image", [](Bytes bytes) { (void)decode_png16(bytes, "input"); }},
@@ -89,6 +95,12 @@ const std::vector<Reader>& file_readers() {
       {"mask_png", "image",
        [](Bytes bytes) {
          (void)decode_png_mask(bytes, {3, 2}, "input");
+       }},
+      {"depth_npy", "image", [](Bytes bytes) { (void)decode_npy(bytes, "input"); }},
+      {"depth_pfm", "image", [](Bytes bytes) { (void)decode_pfm(bytes, "input"); }},
+      {"confidence_png", "image",
+       [](Bytes bytes) {
+         (void)decode_png_grey(bytes, {3, 2}, "input");
        }},
       {"exr", "image", [](Bytes bytes) { (void)decode_exr(bytes, "input"); }},
       {"map_labels", "map",

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "cli_options.hpp"
 #include "commands.hpp"
@@ -22,14 +24,29 @@ struct DoctorRequest {
 };
 
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis) {
-  nlohmann::ordered_json json{{"healthy", diagnosis.healthy()},   {"frames", diagnosis.frames},
-                              {"agreement", diagnosis.agreement}, {"best_agreement", diagnosis.best_agreement},
-                              {"checks", diagnosis.checks},       {"findings", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{{"healthy", diagnosis.healthy()},
+                              {"frames", diagnosis.frames},
+                              {"agreement", diagnosis.agreement},
+                              {"best_agreement", diagnosis.best_agreement},
+                              {"contradiction", diagnosis.contradiction},
+                              {"compared", !diagnosis.not_compared},
+                              {"recognised", diagnosis.recognised},
+                              {"left_out", diagnosis.left_out},
+                              {"checks", diagnosis.checks},
+                              {"findings", nlohmann::ordered_json::array()}};
   for (const Finding& finding : diagnosis.findings) {
-    json["findings"].push_back(
-        {{"check", finding.check}, {"wrong", finding.wrong}, {"mend", finding.mend}, {"evidence", finding.evidence}});
+    json["findings"].push_back({{"check", finding.check},
+                                {"wrong", finding.wrong},
+                                {"fix", finding.mend},
+                                {"evidence", finding.evidence},
+                                {"note", finding.is_note}});
   }
   return json;
+}
+
+/// Checks that one frame alone allows.
+bool needs_no_comparison(std::string_view check) {
+  return check == "frames" || check == "rotation" || check == "no-return" || check == "intrinsics";
 }
 
 void print_diagnosis(const Diagnosis& diagnosis) {
@@ -38,14 +55,30 @@ void print_diagnosis(const Diagnosis& diagnosis) {
     for (const Finding& finding : diagnosis.findings) {
       if (finding.check != check.name) continue;
       content = false;
-      fmt::print("WRONG  {:<14}  {}\n       {:<14}  mend: {}\n       {:<14}  because {}\n", check.name, finding.wrong,
-                 "", finding.mend, "", finding.evidence);
+      fmt::print("{}  {:<14}  {}\n       {:<14}  fix: {}\n       {:<14}  because {}\n",
+                 finding.is_note ? "note " : "WRONG", check.name, finding.wrong, "", finding.mend, "",
+                 finding.evidence);
     }
-    if (content) fmt::print("ok     {:<14}  looked for {}\n", check.name, check.looks_for);
+    if (!content) continue;
+    if (diagnosis.not_compared && !needs_no_comparison(check.name)) {
+      fmt::print("-      {:<14}  not checked: it takes two frames or more\n", check.name);
+    } else {
+      fmt::print("ok     {:<14}  looked for {}\n", check.name, check.looks_for);
+    }
   }
-  fmt::print("{} frames; as given they share {:.1f} % of their points with each other\n", diagnosis.frames,
-             100 * diagnosis.agreement);
-  if (!diagnosis.healthy()) fmt::print("{} to mend\n", diagnosis.findings.size());
+  if (diagnosis.not_compared) {
+    fmt::print("{} frames; nothing can be compared\n", diagnosis.frames);
+  } else {
+    fmt::print(
+        "{} frames; as given they agree in {:.1f} % of their points and contradict each other in {:.1f} % of what "
+        "they both look at\n",
+        diagnosis.frames, 100 * diagnosis.agreement, 100 * diagnosis.contradiction);
+  }
+  if (!diagnosis.healthy()) {
+    const auto wrong = std::count_if(diagnosis.findings.begin(), diagnosis.findings.end(),
+                                     [](const Finding& finding) { return !finding.is_note; });
+    fmt::print("{} to fix\n", wrong);
+  }
 }
 
 void doctor(const DoctorRequest& request) {
@@ -55,6 +88,10 @@ void doctor(const DoctorRequest& request) {
     if (shows_progress) print_note("\r\033[K{}", what);
   });
   if (shows_progress) print_note("\r\033[K");
+  if (!request.program.quiet) {
+    if (!diagnosis.recognised.empty()) print_note("{}\n", diagnosis.recognised);
+    for (const std::string& each : diagnosis.left_out) print_note("left out: {}\n", each);
+  }
   if (request.program.json) {
     fmt::print("{}\n", diagnosis_json(diagnosis).dump(2));
   } else {
@@ -67,7 +104,7 @@ void doctor(const DoctorRequest& request) {
 
 void add_doctor(CLI::App& program) {
   auto request = std::make_shared<DoctorRequest>();
-  CLI::App* command = program.add_subcommand("doctor", "Find what is wrong with real scans, and say how to mend it");
+  CLI::App* command = program.add_subcommand("doctor", "Find what is wrong with real scans, and say how to fix it");
   command->add_option("scans", request->scans, "folder of depth frames or clouds with poses, or a Stanford .conf")
       ->required();
   add_options(*command, request->options);

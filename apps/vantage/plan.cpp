@@ -10,7 +10,6 @@
 #include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
-#include "recognised.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/model/scan_model.hpp"
 #include "vantage/options/robot_file.hpp"
@@ -62,7 +61,7 @@ void plan(PlanRequest& request) {
   load_robot(request.options.planning, request.given);
   request.options.validate_without_commands();
   const ScanSet set = open_scans(request.scans, request.options.reading);
-  if (!request.program.quiet) print_recognised(set);
+  if (!request.program.quiet) print_scan_set(set);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
   ScanScene fitted = fit_scene(pending, request.options.scene);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "notes.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/runs/run_files.hpp"
 
@@ -69,6 +70,14 @@ void print_views(std::vector<Evaluation> evaluations, const PlanTableOptions& op
   const std::vector<std::string> infeasible = infeasible_by_reason(evaluations);
   if (!infeasible.empty()) fmt::print("not feasible (--verbose lists each view):\n");
   for (const std::string& line : infeasible) fmt::print("  {}\n", printable(line));
+}
+
+void print_scan_set(const ScanSet& set) {
+  if (!set.description.empty()) print_note("{}\n", printable(set.description));
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(most, set.left_out.size()); ++i)
+    print_note("left out: {}\n", printable(set.left_out[i]));
+  if (set.left_out.size() > most) print_note("left out: {} more\n", set.left_out.size() - most);
 }
 
 std::string record_line(const ScanRecord& record) {

@@ -6,6 +6,7 @@
 
 #include "vantage/model/scan_record.hpp"
 #include "vantage/planning/planner.hpp"
+#include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage::app {
 
@@ -21,6 +22,9 @@ void print_views(std::vector<Evaluation> evaluations, const PlanTableOptions& op
 /// How many of the views are infeasible for each kind of reason, most frequent first: "42 of 80: outside the
 /// workspace". Reasons that differ only in their numbers are one kind, whose numbers are printed as "…".
 [[nodiscard]] std::vector<std::string> infeasible_by_reason(const std::vector<Evaluation>& evaluations);
+
+/// What was recognised in a set of scans, and what was left out of it, a line each, on standard error.
+void print_scan_set(const ScanSet& set);
 
 /// One line, with its end, on how a real scan was registered and what it brought.
 [[nodiscard]] std::string record_line(const ScanRecord& record);

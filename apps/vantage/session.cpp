@@ -11,7 +11,6 @@
 #include "notes.hpp"
 #include "plan_table.hpp"
 #include "program_options.hpp"
-#include "recognised.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/options/robot_file.hpp"
@@ -65,7 +64,7 @@ void add(SessionRequest& request) {
   std::vector<ScanFile> files;
   for (const std::string& path : request.scans) {
     ScanSet set = open_scans(path, reading);
-    if (!request.program.quiet) print_recognised(set);
+    if (!request.program.quiet) print_scan_set(set);
     for (ScanFile& file : set.scans) files.push_back(std::move(file));
   }
   require(!request.candidate || files.size() == 1, "candidate = ", request.candidate.value_or(0),

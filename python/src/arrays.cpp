@@ -8,6 +8,11 @@ std::string shape_text(const py::array& array) {
   return text + ")";
 }
 
+py::array without_masked(const py::array& array, double filled) {
+  if (!py::isinstance(array, py::module_::import("numpy").attr("ma").attr("MaskedArray"))) return array;
+  return array.attr("filled")(filled).cast<py::array>();
+}
+
 void require_shape(const py::array& array, std::initializer_list<py::ssize_t> shape, const std::string& what) {
   bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
   std::string wanted;

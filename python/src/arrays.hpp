@@ -29,6 +29,9 @@ using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>
 
 /// The shape of an array as text, for errors.
 [[nodiscard]] std::string shape_text(const py::array& array);
+/// The array without what numpy.ma has masked in it: those elements become `filled`. Other arrays as they are; they
+/// would lose their mask, and hidden values count, when they are converted.
+[[nodiscard]] py::array without_masked(const py::array& array, double filled);
 /// Throws InputError unless the array has this shape; -1 stands for any length.
 void require_shape(const py::array& array, std::initializer_list<py::ssize_t> shape, const std::string& what);
 

@@ -38,7 +38,7 @@ std::pair<ScanHolder, View> scan_from_depth(const py::array& depth, const Double
 
 std::pair<Scan, View> read_depth(const DepthInput& input, const Pose& reported, const ScanFolderOptions& options) {
   options.validate();
-  const DepthPixels pixels = pixels_of(input.depth);
+  const DepthPixels pixels = pixels_of(without_masked(input.depth, RangeImage::unknown));
   require_shape(input.intrinsics, {3, 3}, "intrinsics");
   Intrinsics intrinsics = intrinsics_of(
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(input.intrinsics.data()), "intrinsics");
@@ -47,7 +47,7 @@ std::pair<Scan, View> read_depth(const DepthInput& input, const Pose& reported, 
   if (input.mask) {
     require_shape(*input.mask, {input.depth.shape(0), input.depth.shape(1)}, "mask");
     mask.emplace();
-    for (const bool counts : values_of<bool>(*input.mask)) mask->push_back(counts ? 1 : 0);
+    for (const bool counts : values_of<bool>(without_masked(*input.mask, 0))) mask->push_back(counts ? 1 : 0);
   }
   const py::gil_scoped_release release;
   const View view{sensor_pose(reported, hand_eye_offset(options), options)};

@@ -18,8 +18,9 @@ void require_fits(const py::array& pixels, const RangeCamera& camera) {
   require_shape(pixels, {camera.resolution.rows, camera.resolution.columns}, "depth (rows, columns of the camera)");
 }
 
-RangeImage image_from_metres(const RangeCamera& camera, const py::array& metres) {
+RangeImage image_from_metres(const RangeCamera& camera, const py::array& given) {
   camera.validate();
+  const py::array metres = without_masked(given, RangeImage::unknown);
   require_fits(metres, camera);
   // Whole numbers of another type are likely millimetres: better to ask than to guess.
   require(metres.dtype().kind() == 'f', "depth: is of type ", std::string(py::str(metres.dtype())),
@@ -30,9 +31,10 @@ RangeImage image_from_metres(const RangeCamera& camera, const py::array& metres)
   return image;
 }
 
-RangeImage image_from_units(const RangeCamera& camera, const py::array_t<std::uint16_t>& pixels, double depth_scale,
+RangeImage image_from_units(const RangeCamera& camera, const py::array_t<std::uint16_t>& given, double depth_scale,
                             std::optional<std::uint16_t> no_return) {
   camera.validate();
+  const py::array_t<std::uint16_t> pixels(without_masked(given, RangeImage::unknown));
   require_fits(pixels, camera);
   const auto packed = py::array_t<std::uint16_t, py::array::c_style>::ensure(pixels);
   const Gray16 grey{camera.resolution, {packed.data(), packed.data() + packed.size()}};

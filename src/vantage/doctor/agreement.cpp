@@ -1,6 +1,5 @@
 #include "vantage/doctor/agreement.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -68,36 +67,27 @@ class Cells {
   std::vector<std::uint64_t> table_;
 };
 
-/// What the changed tangents do to a point.
-Mat3 sheared(const Reading& reading) {
-  Mat3 matrix = Mat3::Identity();
-  matrix.diagonal().head<2>() = reading.tangent_scale;
-  matrix.block<2, 1>(0, 2) = reading.tangent_shift;
-  return matrix;
-}
-
 std::vector<Vec3> read(const FrameEvidence& frame, const Reading& reading) {
-  const Mat3 matrix = sheared(reading);
   std::vector<Vec3> points = frame.cloud.points;
-  for (Vec3& point : points) point = matrix * point;
+  for (Vec3& point : points) point = reading.point_of(point);
   return points;
 }
 
-/// Share of the points of `frame` that `other` has too. Lengths are those of the depths as read: poses are divided by
-/// the scale instead.
-double share(const std::vector<Vec3>& points, const Pose& other_from_frame, double scale, const Cells& other) {
+/// Share of the points of `frame` that `other` has too.
+double share(const std::vector<Vec3>& points, const Pose& other_from_frame, const Cells& other) {
   if (points.empty()) return 0;
   const std::size_t step = points.size() / points_asked + 1;
   std::size_t asked = 0, found = 0;
   for (std::size_t i = 0; i < points.size(); i += step, ++asked) {
-    found += other.has_near(other_from_frame.linear() * points[i] + other_from_frame.translation() / scale) ? 1 : 0;
+    found += other.has_near(other_from_frame * points[i]) ? 1 : 0;
   }
   return static_cast<double>(found) / static_cast<double>(asked);
 }
 
 std::optional<Cells> cells_of(const FrameEvidence& frame, const Reading& reading) {
   if (frame.cloud.points.empty()) return std::nullopt;
-  return std::optional<Cells>(std::in_place, read(frame, reading), 2 * tolerance * frame.median_depth);
+  return std::optional<Cells>(std::in_place, read(frame, reading),
+                              2 * tolerance * reading.depth_of(frame.median_depth, Eigen::Vector2d::Zero()));
 }
 
 /// Every frame asks those right before and after it, which see most of the same, and an even choice of all others.
@@ -113,30 +103,13 @@ double share_of_frame(std::size_t frame, const std::vector<Vec3>& points, const 
   for (std::size_t j = 0; j < cells.size(); ++j) {
     if (!cells[j] || !is_asked(frame, j, cells.size())) continue;
     const Pose other_from_frame = reading.world_from_sensor[j].inverse() * reading.world_from_sensor[frame];
-    sum += share(points, other_from_frame, reading.depth_scale, *cells[j]);
+    sum += share(points, other_from_frame, *cells[j]);
     ++pairs;
   }
   return pairs == 0 ? 0 : sum / static_cast<double>(pairs);
 }
 
 }  // namespace
-
-Reading as_given(const Evidence& evidence) {
-  Reading reading;
-  reading.world_from_sensor = evidence.poses();
-  return reading;
-}
-
-PointCloud points_of(const FrameEvidence& frame, const Reading& reading) {
-  const Mat3 matrix = reading.depth_scale * sheared(reading);
-  const Mat3 normal_matrix = sheared(reading).inverse().transpose();
-  PointCloud cloud;
-  for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
-    // Where the surface is not known a normal is zero, and stays so.
-    cloud.add(matrix * frame.cloud.points[i], (normal_matrix * frame.cloud.normals[i]).normalized());
-  }
-  return cloud;
-}
 
 double agreement_of_frame(const Evidence& evidence, const Reading& reading, std::size_t frame) {
   std::vector<std::optional<Cells>> cells(evidence.frames.size());

@@ -2,23 +2,9 @@
 
 #include <vector>
 
-#include "vantage/doctor/evidence.hpp"
+#include "vantage/doctor/reading.hpp"
 
 namespace vantage {
-
-/// One way to read a set of frames: what is given may be taken for something else than it says.
-struct Reading {
-  std::vector<Pose> world_from_sensor;  // one per frame
-  double depth_scale = 1;               // of the depths as read
-  /// Tangents of the pixels become scale * tangent + shift, per axis.
-  Eigen::Vector2d tangent_scale{1, 1}, tangent_shift{0, 0};
-};
-
-/// The reading that takes everything as it is given.
-[[nodiscard]] Reading as_given(const Evidence& evidence);
-
-/// The points and normals of a frame in that reading, sensor frame, metres.
-[[nodiscard]] PointCloud points_of(const FrameEvidence& frame, const Reading& reading);
 
 /// Agreement from which on a reading is believed. Measured on ur5_tray and apc_shelf: 0.50 and 0.56 as they are; at
 /// most 0.13 with every pose 0.2 m and 8 degrees off, and 0.14 when such poses are read in the way that fits them best.

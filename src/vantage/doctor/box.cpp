@@ -46,12 +46,16 @@ BoxNumbers middle_of(const std::vector<Vec3>& points) {
     numbers[axis] = 0.5 * (low + high);
     numbers[axis + 3] = high - low;
   }
+  // What is seen as a plane has no extent across it, but a box must have one.
+  constexpr double thinnest = 0.05, least = 0.001;  // of the longest side; metres
+  for (int axis = 3; axis < 6; ++axis)
+    numbers[axis] = std::max({numbers[axis], thinnest * numbers.tail<3>().maxCoeff(), least});
   return numbers;
 }
 
 std::string text_of(const BoxNumbers& numbers) {
   std::string text;
-  for (const double number : numbers) text += concat(text.empty() ? "" : ",", std::round(1000 * number) / 1000);
+  for (const double number : numbers) text += concat(text.empty() ? "" : ",", std::round(1e4 * number) / 1e4 + 0.0);
   return text;
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "vantage/core/error.hpp"
 #include "vantage/doctor/box.hpp"
-#include "vantage/doctor/hypothesis.hpp"
+#include "vantage/doctor/explain.hpp"
+#include "vantage/doctor/frames.hpp"
 #include "vantage/doctor/no_return.hpp"
 #include "vantage/doctor/pose_errors.hpp"
 #include "vantage/doctor/pose_files.hpp"
@@ -14,70 +16,44 @@
 namespace vantage {
 namespace {
 
-// A mistake explains the frames where mending it makes them agree clearly better, and well enough in the end. Measured
-// on ur5_tray and apc_shelf: in the untouched sets the best mended reading has 0.65 and 0.71 times the agreement that
-// they have as given; with a mistake made in them the true one has 1.5 (poses one frame late, apc_shelf) times and
-// more.
-constexpr double clearly = 1.25;
-
-std::vector<Hypothesis> mistakes(const Reading& base, const Evidence& evidence, double depth_scale) {
-  std::vector<Hypothesis> all = depth_units(base, depth_scale);
-  for (const auto& more : {inverted_poses(base), other_axes(base), mirrored_worlds(base), shifted_times(base),
-                           other_resolutions(base, evidence)}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  return all;
-}
-
-std::string percent(double share) { return concat(std::round(1000 * share) / 10, " %"); }
-
-Finding finding_of(const Hypothesis& hypothesis, double before, double after) {
-  return {hypothesis.check, hypothesis.wrong, hypothesis.mend,
-          concat("mended so, frames share ", percent(after), " of their points with each other, as given ",
-                 percent(before))};
-}
-
-struct Explained {
-  Reading reading;
-  double agreement = 0;
-  std::vector<Finding> findings;
-};
-
-/// The mistakes, one after the other, that make the frames agree: the best one, then the best on top of it.
-Explained explain(const Evidence& evidence, double depth_scale,
-                  const std::function<void(const std::string&)>& progress) {
-  Explained given{as_given(evidence), 0, {}};
-  given.agreement = agreement(evidence, given.reading);
-  Explained best = given;
-  std::vector<std::string> found;
-  for (int round = 0; round < 2; ++round) {
-    const std::vector<Hypothesis> all = mistakes(best.reading, evidence, depth_scale);
-    progress(concat("tries ", all.size(), " mistakes that could have been made"));
-    const double before = best.agreement;
-    const Hypothesis* chosen = nullptr;
-    for (const Hypothesis& each : all) {
-      if (std::find(found.begin(), found.end(), each.check) != found.end()) continue;
-      const double after = agreement(evidence, each.reading);
-      if (after > best.agreement && after > clearly * before) {
-        best.agreement = after;
-        chosen = &each;
-      }
-    }
-    if (chosen == nullptr) break;
-    best.findings.push_back(finding_of(*chosen, before, best.agreement));
-    found.push_back(chosen->check);
-    best.reading = chosen->reading;
-  }
-  // What makes bad frames a little less bad is no explanation.
-  if (!best.findings.empty() && best.agreement < believable_agreement) best = given;
-  return best;
-}
-
 ScanFolderOptions without_limits(ScanFolderOptions options) {
   // In a wrong unit everything may lie beyond the limits.
   options.depth_range = {0, 1e6};
-  if (!options.no_return) options.no_return = 65535;  // all bits set: no sensor means a depth by that
+  options.crop.reset();  // what is outside does not count, but the sensor saw it
   return options;
+}
+
+/// Images whose size the intrinsics have the other way round cannot be read at all.
+std::optional<Finding> wrong_size(const std::filesystem::path& path, const ScanFolderOptions& options) {
+  try {
+    (void)open_scans(path, options);
+  } catch (const ResolutionError& error) {
+    return Finding{"intrinsics", error.what(),
+                   "write width and height as those of the images, or give the intrinsics of these images",
+                   "the images cannot be read with them"};
+  }
+  return std::nullopt;
+}
+
+/// Depths and positions in the same wrong unit fit each other.
+std::vector<Finding> check_size(const Evidence& evidence, const Reading& reading) {
+  constexpr double farthest = 150;  // metres: no sensor that reconstructs objects
+  const double depth = reading.depth_of(evidence.median_depth(), Eigen::Vector2d::Zero());
+  if (depth < farthest) return {};
+  return {{"depth-unit", concat("everything is very large: the typical depth is ", depth, " m"),
+           "if the numbers are millimetres give --unit mm (and --depth-scale for images of whole numbers)",
+           "frames fit each other, which they do in any unit"}};
+}
+
+/// The poses of the frames that have a point.
+void take_poses(Evidence& evidence, const ScanSet& set) {
+  auto frame = evidence.frames.begin();
+  for (const ScanFile& scan : set.scans) {
+    if (frame == evidence.frames.end()) break;
+    if (frame->name != scan.name) continue;
+    frame->world_from_sensor = scan.view.world_from_sensor;
+    ++frame;
+  }
 }
 
 }  // namespace
@@ -92,15 +68,19 @@ void DoctorOptions::validate() const {
 
 const std::vector<CheckName>& doctor_checks() {
   static const std::vector<CheckName> checks{
-      {"rotation", "matrices that are scaled, mirrored, transposed or no rotations; left-handed frames"},
+      {"frames", "frames without a point; sets of one frame"},
+      {"rotation", "matrices that are scaled, mirrored, transposed or no rotations; quaternions with w first"},
       {"depth-unit", "depths in another unit than --depth-scale says"},
+      {"position-unit", "positions in another unit than --unit says"},
+      {"depth-kind", "distances along the ray, or disparities, instead of depths"},
       {"pose-direction", "camera from world instead of world from camera"},
       {"sensor-axes", "body or OpenGL axes instead of x right, y down, z forward"},
+      {"hand-eye", "poses of the robot's hand instead of the sensor"},
       {"time", "poses that belong to earlier or later frames"},
-      {"intrinsics", "intrinsics of images of another size"},
+      {"intrinsics", "intrinsics of images of another size; cx and cy swapped"},
       {"pose-errors", "frames farther off than registration searches"},
       {"box", "a box that no frame has a point in"},
-      {"no-return", "a sensor that does not tell where nothing is"}};
+      {"no-return", "a sensor that does not tell where nothing is, or reports it where it measured nothing"}};
   return checks;
 }
 
@@ -112,34 +92,47 @@ Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& option
   diagnosis.findings = poses.findings();
   for (const CheckName& check : doctor_checks()) diagnosis.checks.emplace_back(check.name);
   if (!poses.readable()) return diagnosis;
+  const auto add = [&](const std::vector<Finding>& more) {
+    diagnosis.findings.insert(diagnosis.findings.end(), more.begin(), more.end());
+  };
 
-  ScanFolderOptions reading = without_limits(options.folder);
+  const ScanFolderOptions reading = without_limits(options.folder);
+  if (const auto finding = wrong_size(path, poses.options(reading, 0))) {
+    add({*finding});
+    return diagnosis;
+  }
   Evidence evidence;
   Explained best;
   for (int way = 0; way < poses.ways(); ++way) {
     const ScanSet set = open_scans(path, poses.options(reading, way));
     if (way == 0) {
-      evidence = gather(set, options.folder.depth_range[1],
+      diagnosis.recognised = set.description;
+      diagnosis.left_out = set.left_out;
+      evidence = gather(set, options.folder.depth_range[1], options.folder,
                         [&](std::size_t done, std::size_t of) { progress(concat("reads frame ", done, " of ", of)); });
+      diagnosis.frames = evidence.frames.size() + evidence.empty.size();
+      add(check_frames(evidence));
+      if (evidence.frames.size() < 2) {
+        add(check_no_return(evidence));
+        diagnosis.not_compared = true;
+        return diagnosis;
+      }
     }
-    for (std::size_t i = 0; i < set.scans.size(); ++i) {
-      evidence.frames[i].world_from_sensor = set.scans[i].view.world_from_sensor;
-    }
-    Explained explained = explain(evidence, options.folder.depth_scale, progress);
-    if (way == 0) diagnosis.agreement = poses.findings().empty() ? agreement(evidence, as_given(evidence)) : 0;
-    // A mirrored axis and a half turn on top look like another mirrored axis: of equals the one with less to mend.
-    const bool simpler = explained.findings.size() < best.findings.size();
-    if (way == 0 || explained.agreement > (simpler ? 1 / clearly : clearly) * best.agreement) {
+    take_poses(evidence, set);
+    Explained explained = explain(evidence, options.folder.metres_per_depth_unit(), progress);
+    // A mirrored axis and a half turn on top look like another mirrored axis: of equals the one with less to fix.
+    const double more_to_fix =
+        static_cast<double>(explained.findings.size()) - static_cast<double>(best.findings.size());
+    if (way == 0 || explained.consistency.score() > best.consistency.score() + 0.02 * more_to_fix) {
       best = std::move(explained);
       if (poses.ways() > 1) diagnosis.findings.back().mend = poses.mend(way);
     }
   }
-  diagnosis.frames = evidence.frames.size();
-  diagnosis.best_agreement = best.agreement;
-  const auto add = [&](const std::vector<Finding>& more) {
-    diagnosis.findings.insert(diagnosis.findings.end(), more.begin(), more.end());
-  };
+  diagnosis.agreement = poses.findings().empty() ? best.given.agrees : 0;
+  diagnosis.contradiction = best.given.contradiction();
+  diagnosis.best_agreement = best.consistency.agrees;
   add(best.findings);
+  add(check_size(evidence, best.reading));
   progress("compares frames with each other by registration");
   add(check_pose_errors(evidence, best.reading, options.pose_error));
   if (options.box) add(check_box(evidence, best.reading, *options.box));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -31,12 +32,18 @@ void describe(DoctorOptions& o, Field&& field) {
 /// What is wrong with a set of scans.
 struct Diagnosis {
   std::size_t frames = 0;
-  double agreement = 0;             // between the frames as given, 0..1; 0 where the poses cannot be read at all
-  double best_agreement = 0;        // as they are best explained
-  std::vector<std::string> checks;  // what was looked at, by name
+  std::string recognised;             // ScanSet
+  std::vector<std::string> left_out;  // ScanSet
+  double agreement = 0;               // between the frames as given, 0..1; 0 where the poses cannot be read at all
+  double contradiction = 0;           // of what the frames both look at as given, 0..1
+  bool not_compared = false;          // fewer than two frames: what takes a comparison was not checked
+  double best_agreement = 0;          // as they are best explained
+  std::vector<std::string> checks;    // what was looked at, by name
   std::vector<Finding> findings;
 
-  [[nodiscard]] bool healthy() const { return findings.empty(); }
+  [[nodiscard]] bool healthy() const {
+    return std::all_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.is_note; });
+  }
 };
 
 /// Names of all checks, in the order in which they are made, and what each looks for.
@@ -47,7 +54,7 @@ struct CheckName {
 [[nodiscard]] const std::vector<CheckName>& doctor_checks();
 
 /// Examines the scans at `path` as open_scans() would read them. `progress` gets a line about what is being done.
-/// Throws InputError for what open_scans() refuses, except for poses that it can mend itself to look on.
+/// Throws InputError for what open_scans() refuses, except for poses that it can fix itself to look on.
 [[nodiscard]] Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& options,
                                 const std::function<void(const std::string&)>& progress);
 

@@ -96,8 +96,9 @@ struct Mistake {
     all.push_back({check, mend, std::move(set), options});
     return &all.back().options;
   };
-  add("depth-unit", "--depth-scale", good)->folder.depth_scale *= 10;
-  add("depth-unit", "--depth-scale", good)->folder.depth_scale /= 1000;
+  const double scale = options.folder.metres_per_depth_unit();
+  add("depth-unit", "--depth-scale", good)->folder.depth_scale = 10 * scale;
+  add("depth-unit", "--depth-scale", good)->folder.depth_scale = scale / 1000;
   add("pose-direction", "invert", good.with_poses([](const Matrix& m) -> Matrix { return m.inverse(); }));
   Mat3 optical_from_body, optical_from_gl;
   optical_from_body << 0, -1, 0, 0, 0, -1, 1, 0, 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vantage/recordings/scan_bytes.hpp"
+
 namespace vantage {
 namespace {
 
@@ -14,6 +16,31 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Whether more of the pixels around this one have met something than not.
+bool is_among_hits(const RangeImage& image, int column, int row) {
+  int hits = 0, others = 0;
+  for (int v = std::max(0, row - 1); v <= std::min(image.camera.resolution.rows - 1, row + 1); ++v) {
+    for (int u = std::max(0, column - 1); u <= std::min(image.camera.resolution.columns - 1, column + 1); ++u) {
+      if (u == column && v == row) continue;
+      ++(RangeImage::is_hit(image.at(u, v)) ? hits : others);
+    }
+  }
+  return hits > others;
+}
+
+/// Of the pixels that met nothing, the share that lies among hits: background is in one piece, dropouts are strewn.
+double strewn_share(const RangeImage& image) {
+  std::size_t strewn = 0, all = 0;
+  for (int row = 0; row < image.camera.resolution.rows; ++row) {
+    for (int column = 0; column < image.camera.resolution.columns; ++column) {
+      if (image.at(column, row) != RangeImage::no_return) continue;
+      ++all;
+      strewn += is_among_hits(image, column, row) ? 1 : 0;
+    }
+  }
+  return all == 0 ? 0 : static_cast<double>(strewn) / static_cast<double>(all);
+}
+
 void count_pixels(FrameEvidence& frame, const RangeImage& image, double far_limit) {
   std::size_t unknown = 0, no_return = 0;
   for (const float depth : image.depth) {
@@ -22,6 +49,7 @@ void count_pixels(FrameEvidence& frame, const RangeImage& image, double far_limi
   }
   frame.unknown = static_cast<double>(unknown) / static_cast<double>(image.depth.size());
   frame.no_return = static_cast<double>(no_return) / static_cast<double>(image.depth.size());
+  frame.strewn = strewn_share(image);
 }
 
 /// The points of an image on a coarse grid of pixels, so that no part of it is left out.
@@ -69,25 +97,35 @@ double Evidence::median_depth() const {
   return median(std::move(depths));
 }
 
-Evidence gather(const ScanSet& set, double far_limit, const std::function<void(std::size_t, std::size_t)>& progress) {
+Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& options,
+                const std::function<void(std::size_t, std::size_t)>& progress) {
   Evidence evidence;
   evidence.camera = set.camera;
+  std::size_t done = 0;
   for (const ScanFile& file : set.scans) {
     FrameEvidence frame;
     frame.name = file.name;
     frame.world_from_sensor = file.view.world_from_sensor;
-    const Scan scan = file.read();
+    frame.is_masked = file.is_masked;
+    Scan whole = file.read();
+    if (const auto* image = std::get_if<ImageScan>(&whole)) count_pixels(frame, image->image, far_limit);
+    const Scan scan = cropped(std::move(whole), file.view, options);
     if (const auto* image = std::get_if<ImageScan>(&scan)) {
-      count_pixels(frame, image->image, far_limit);
       frame.cloud = thinned(*image);
+      frame.map = DepthMap(image->image);
     } else {
       frame.cloud = thinned(std::get<PointScan>(scan));
+      frame.map = DepthMap(frame.cloud.points);
     }
     std::vector<double> depths;
     for (const Vec3& point : frame.cloud.points) depths.push_back(point.norm());
     frame.median_depth = median(std::move(depths));
-    evidence.frames.push_back(std::move(frame));
-    progress(evidence.frames.size(), set.scans.size());
+    if (frame.cloud.points.empty()) {
+      evidence.empty.push_back(frame.name);
+    } else {
+      evidence.frames.push_back(std::move(frame));
+    }
+    progress(++done, set.scans.size());
   }
   return evidence;
 }

@@ -11,6 +11,7 @@ struct Finding {
   std::string wrong;     // what is wrong, with numbers
   std::string mend;      // what to do
   std::string evidence;  // why the doctor believes so
+  bool is_note = false;  // good to know, but nothing is wrong
 };
 
 }  // namespace vantage

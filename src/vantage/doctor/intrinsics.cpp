@@ -5,9 +5,9 @@
 
 namespace vantage {
 
-std::vector<Hypothesis> other_resolutions(const Reading& base, const Evidence& evidence) {
-  if (!evidence.camera) return {};
-  const RangeCamera& camera = *evidence.camera;
+namespace {
+
+std::vector<Hypothesis> other_resolutions(const Reading& base, const RangeCamera& camera) {
   // The intrinsics in units of the image, where they would be about (., 0.5): f and c over columns or rows.
   const double columns = camera.resolution.columns, rows = camera.resolution.rows;
   const double center_x = -camera.left / (camera.right - camera.left);
@@ -25,6 +25,31 @@ std::vector<Hypothesis> other_resolutions(const Reading& base, const Evidence& e
     hypotheses.push_back(std::move(each));
   }
   return hypotheses;
+}
+
+/// cx and cy the other way round: x = (u - cx) / fx becomes (u - cy) / fx.
+std::vector<Hypothesis> swapped_center(const Reading& base, const RangeCamera& camera) {
+  const double fx = camera.resolution.columns / (camera.right - camera.left);
+  const double fy = camera.resolution.rows / (camera.bottom - camera.top);
+  const double cx = -camera.left * fx - 0.5, cy = -camera.top * fy - 0.5;
+  constexpr double same = 0.5;  // pixels
+  const bool is_inside = cy < camera.resolution.columns && cx < camera.resolution.rows;
+  if (std::abs(cx - cy) < same || !is_inside) return {};
+  Hypothesis swapped{"intrinsics",
+                     concat("cx and cy are swapped: cx = ", cx, ", cy = ", cy, " for images of ",
+                            camera.resolution.columns, "x", camera.resolution.rows),
+                     "write cx (the column) and cy (the row) the other way round", base};
+  swapped.reading.tangent_shift += Eigen::Vector2d((cx - cy) / fx, (cy - cx) / fy);
+  return {swapped};
+}
+
+}  // namespace
+
+std::vector<Hypothesis> other_intrinsics(const Reading& base, const Evidence& evidence) {
+  if (!evidence.camera) return {};
+  std::vector<Hypothesis> all = swapped_center(base, *evidence.camera);
+  for (Hypothesis& each : other_resolutions(base, *evidence.camera)) all.push_back(std::move(each));
+  return all;
 }
 
 }  // namespace vantage

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "vantage/core/error.hpp"
+#include "vantage/doctor/consistency.hpp"
 #include "vantage/doctor/misplaced.hpp"
 #include "vantage/registration/registration.hpp"
 
@@ -14,6 +16,11 @@ namespace {
 // A frame whose agreement is less than this part of the median frame's stands elsewhere. Measured: the worst frame has
 // 0.50 of the median in ur5_tray and 0.88 in apc_shelf; one frame put 0.3 m off has 0.23 and 0.05.
 constexpr double astray = 0.35;
+
+// As explain() measured: frames that fit contradict each other in less than this.
+constexpr double most_contradiction = 0.2;
+constexpr double nothing_common = 0.02;
+constexpr double contradicted = 0.1;  // a frame alone, which the others see less of
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -70,13 +77,19 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Whether frames contradict each other, or see nothing in common.
+bool is_contradicted(const Consistency& consistency) {
+  return consistency.contradiction() > most_contradiction ||
+         (consistency.agrees < nothing_common && consistency.hidden < nothing_common);
+}
+
 std::vector<Finding> check_all(const Evidence& evidence, const Reading& reading, double pose_error, double as_given) {
   const Registered tried = registered(evidence, reading, pose_error, [](std::size_t) { return true; });
   const double share = agreement(evidence, tried.reading);
-  if (share >= believable_agreement) return {};
+  if (!is_contradicted(consistency(evidence, tried.reading))) return {};
   return {{"pose-errors",
            concat("the frames do not fit each other, no simple mistake explains it, and registration, which searches ",
-                  pose_error, " m, does not mend it: the poses are likely off by more"),
+                  pose_error, " m, does not put it right: the poses are likely off by more"),
            "calibrate the hand-eye transform anew, see that each pose is of its frame's moment, or give a larger "
            "--pose-error where the robot is known to be that far off",
            concat("frames share ", percent(as_given), " of their points as given, and ", percent(share), " after ",
@@ -113,10 +126,16 @@ std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& 
   if (evidence.frames.size() < 3) return {};
   const std::vector<double> shares = agreement_of_frames(evidence, reading);
   const double typical = median(shares);
-  if (typical < believable_agreement) return check_all(evidence, reading, pose_error, typical);
-  const auto is_off = [&](std::size_t i) { return shares[i] < astray * typical; };
+  if (is_contradicted(consistency(evidence, reading))) return check_all(evidence, reading, pose_error, typical);
+  // A frame from the other side of a thing shares little, too; one that is off is contradicted as well.
+  const std::vector<Consistency> fits = consistency_of_frames(evidence, reading);
+  const auto is_off = [&](std::size_t i) {
+    return shares[i] < astray * typical && fits[i].contradiction() > contradicted;
+  };
   std::vector<double> corrected;
-  if (std::any_of(shares.begin(), shares.end(), [&](double share) { return share < astray * typical; })) {
+  std::vector<std::size_t> indices(shares.size());
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
+  if (std::any_of(indices.begin(), indices.end(), is_off)) {
     corrected = agreement_of_frames(evidence, registered(evidence, reading, pose_error, is_off).reading);
   }
   std::vector<std::string> off;

@@ -40,12 +40,12 @@ std::string rows_text(const Mat3& m) {
   return text + "]";
 }
 
-}  // namespace
+enum class Which { usual, unusual };
 
-std::vector<Hypothesis> other_axes(const Reading& base) {
+std::vector<Hypothesis> with_axes(const Reading& base, Which which) {
   const std::array<Named, 2> known{
-      Named{columns(-Vec3::UnitY(), -Vec3::UnitZ(), Vec3::UnitX()), " (body axes, as ROS has them)"},
-      Named{columns(Vec3::UnitX(), -Vec3::UnitY(), -Vec3::UnitZ()), " (as OpenGL and Blender have them)"}};
+      Named{columns(Vec3::UnitX(), -Vec3::UnitY(), -Vec3::UnitZ()), " (as OpenGL and Blender have them)"},
+      Named{columns(-Vec3::UnitY(), -Vec3::UnitZ(), Vec3::UnitX()), " (body axes, as ROS has them)"}};
   std::vector<Hypothesis> hypotheses;
   std::array<int, 3> order{0, 1, 2};
   do {
@@ -55,10 +55,11 @@ std::vector<Hypothesis> other_axes(const Reading& base) {
         turn(order[static_cast<std::size_t>(axis)], axis) = (signs >> axis & 1) != 0 ? -1 : 1;
       }
       if (turn.determinant() < 0 || turn.isIdentity()) continue;
-      Hypothesis each{"sensor-axes", {}, {}, base};
-      for (Pose& pose : each.reading.world_from_sensor) pose.linear() = pose.linear() * turn;
       std::string name;
       for (const Named& one : known) name += one.given_from_optical == turn ? one.name : "";
+      if (name.empty() == (which == Which::usual)) continue;
+      Hypothesis each{"sensor-axes", {}, {}, base};
+      for (Pose& pose : each.reading.world_from_sensor) pose.linear() = pose.linear() * turn;
       each.wrong = concat("the poses are for a camera with ", axes_text(turn), name,
                           "; they must be for the optical axes x right, y down, z forward");
       each.mend = concat("multiply every rotation from the right by ", rows_text(turn));
@@ -66,6 +67,24 @@ std::vector<Hypothesis> other_axes(const Reading& base) {
     }
   } while (std::next_permutation(order.begin(), order.end()));
   return hypotheses;
+}
+
+}  // namespace
+
+std::vector<Hypothesis> usual_axes(const Reading& base) { return with_axes(base, Which::usual); }
+std::vector<Hypothesis> unusual_axes(const Reading& base) { return with_axes(base, Which::unusual); }
+
+std::vector<Hypothesis> inverted_poses_of_usual_axes(const Reading& base) {
+  std::vector<Hypothesis> all;
+  for (const Hypothesis& inverted : inverted_poses(base)) {
+    for (Hypothesis& each : with_axes(inverted.reading, Which::usual)) {
+      each.check = inverted.check;
+      each.wrong = inverted.wrong + "; and " + each.wrong;
+      each.mend = inverted.mend + ", then " + each.mend;
+      all.push_back(std::move(each));
+    }
+  }
+  return all;
 }
 
 }  // namespace vantage

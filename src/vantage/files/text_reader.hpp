@@ -23,12 +23,19 @@ namespace vantage {
 /// The text without spaces, tabs and line ends at both sides.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// The text without the mark of UTF-8 that some editors put before it.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
+/// The text as valid UTF-8, for files and answers that must be: bytes that are none become \xNN.
+[[nodiscard]] std::string as_utf8(std::string_view text);
+
 /// Walks over a text line by line and word by word, and words its errors as "NAME, line N: ...". Lines end in \n or
-/// \r\n; words are separated by spaces and tabs.
+/// \r\n; words are separated by spaces and tabs. A byte order mark before the first line is no part of it.
 class TextReader {
  public:
   /// The bytes must outlive the reader; `name` is what errors call the input, usually its path.
-  TextReader(std::string_view bytes, std::string name) : rest_(bytes), name_(std::move(name)) {}
+  TextReader(std::string_view bytes, std::string name)
+      : rest_(without_byte_order_mark(bytes)), name_(std::move(name)) {}
 
   /// Moves to the next line; false at the end.
   bool next_line();

@@ -68,5 +68,20 @@ TEST(TextReader, ErrorsNameThePlaceTheFieldAndTheValue) {
             "a.txt, line 2: n = '-1': must be a whole number, not negative");
 }
 
+TEST(TextReader, AByteOrderMarkIsNoPartOfTheFirstWord) {
+  TextReader reader("\xef\xbb\xbfv 1\n", "a.obj");
+  ASSERT_TRUE(reader.next_line());
+  EXPECT_EQ(reader.word(), "v");
+}
+
+TEST(AsUtf8, KeepsCharactersAndSpellsOtherBytes) {
+  EXPECT_EQ(as_utf8("caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"), "caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+  EXPECT_EQ(as_utf8("caf\xe9"), "caf\\xe9");
+  EXPECT_EQ(as_utf8("\xc0\x80"), "\\xc0\\x80") << "longer than needed";
+  EXPECT_EQ(as_utf8("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half of a surrogate pair";
+  EXPECT_EQ(as_utf8("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond the last character";
+  EXPECT_EQ(as_utf8("\xe2\x82"), "\\xe2\\x82") << "cut off";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// One line of a Stanford `.conf`.
+/// One scan of a Stanford `.conf`.
 struct ConfScan {
   std::string file;
   Pose world_from_scan = Pose::Identity();

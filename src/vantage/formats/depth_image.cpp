@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/formats/float_images.hpp"
 
 namespace vantage {
 namespace {
@@ -23,6 +26,44 @@ void check_resolution(Resolution image, Resolution camera, const std::string& na
   throw InputError(
       fmt::format("{}: has {}x{} pixels, the camera {}x{}; do the intrinsics belong to another resolution?", name,
                   image.columns, image.rows, camera.columns, camera.rows));
+}
+
+/// Metres along the axis within the camera's limits; `metres` says what a value means.
+template <class Value, class Metres>
+RangeImage converted(const std::vector<Value>& values, const RangeCamera& camera, const DepthEncoding& encoding,
+                     const Metres& metres) {
+  encoding.validate();
+  camera.validate();
+  const RayGrid rays = camera.rays();
+  const auto [columns, rows] = camera.resolution;
+  const bool along_ray = encoding.along == DepthAlong::ray;
+  RangeImage result{camera, std::vector<float>(values.size())};
+  std::size_t pixel = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column, ++pixel) {
+      const Value value = values[pixel];
+      if (encoding.unknown && static_cast<double>(value) == encoding.unknown->value) continue;
+      double depth = metres(value);
+      if (along_ray) depth /= std::hypot(rays.x(column), rays.y(row), 1.0);
+      result.depth[pixel] = within_limits(depth, camera);
+    }
+  }
+  return result;
+}
+
+template <class Image>
+Image without_masked(Image image, const Mask& mask) {
+  require(mask.size() == image.values.size(), "mask: has ", mask.size(), " pixels, the depth image ",
+          image.values.size(), "; must have the same");
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 0) image.values[i] = 0;
+  }
+  return image;
+}
+
+bool is_depth_ending(std::string_view ending) {
+  constexpr std::array<std::string_view, 5> endings{".png", ".exr", ".npy", ".pfm", ".raw"};
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 FloatImage decode_raw(std::string_view bytes, Resolution resolution, const std::string& name) {
@@ -52,17 +93,22 @@ void DepthEncoding::validate() const {
 }
 
 RangeImage range_image(const Gray16& image, const RangeCamera& camera, const DepthEncoding& encoding) {
-  encoding.validate();
-  camera.validate();
   check_resolution(image.resolution, camera.resolution, "depth image");
-  RangeImage result{camera, std::vector<float>(image.values.size())};
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const std::uint16_t value = image.values[i];
-    result.depth[i] =
-        encoding.no_return == value ? RangeImage::no_return : within_limits(encoding.metres_per_unit * value, camera);
-  }
-  return result;
+  constexpr std::uint16_t all_bits = 65535;
+  return converted(image.values, camera, encoding, [&](std::uint16_t value) {
+    if (encoding.no_return == value) return double{RangeImage::no_return};
+    return value == all_bits ? double{RangeImage::unknown} : encoding.metres_per_unit * value;
+  });
 }
+
+RangeImage range_image(const FloatImage& image, const RangeCamera& camera, const DepthEncoding& encoding) {
+  check_resolution(image.resolution, camera.resolution, "depth image");
+  return converted(image.values, camera, encoding,
+                   [&](float value) { return encoding.metres_per_float * static_cast<double>(value); });
+}
+
+Gray16 masked(Gray16 image, const Mask& mask) { return without_masked(std::move(image), mask); }
+FloatImage masked(FloatImage image, const Mask& mask) { return without_masked(std::move(image), mask); }
 
 Gray16 depth_pixels(const RangeImage& image, const DepthEncoding& encoding) {
   encoding.validate();
@@ -91,34 +137,20 @@ RangeImage parse_depth_png(std::string_view bytes, const RangeCamera& camera, co
   return range_image(image, camera, encoding);
 }
 
-RangeImage range_image(const FloatImage& image, const RangeCamera& camera, const DepthEncoding& encoding) {
-  encoding.validate();
-  camera.validate();
-  check_resolution(image.resolution, camera.resolution, "depth image");
-  RangeImage result{camera, std::vector<float>(image.values.size())};
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    result.depth[i] = within_limits(encoding.metres_per_float * static_cast<double>(image.values[i]), camera);
-  }
-  return result;
-}
-
-RangeImage masked(RangeImage image, const Mask& mask) {
-  require(mask.size() == image.depth.size(), "mask: has ", mask.size(), " pixels, the depth image ", image.depth.size(),
-          "; must have the same");
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    if (mask[i] == 0) image.depth[i] = RangeImage::unknown;
-  }
-  return image;
-}
-
 DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>& raw, const std::string& name,
                          std::int64_t most_pixels) {
   if (is_png(bytes)) return decode_png16(bytes, name, most_pixels);
   if (is_exr(bytes)) return decode_exr(bytes, name, most_pixels);
+  if (is_npy(bytes)) return decode_npy(bytes, name, most_pixels);
+  if (is_pfm(bytes)) return decode_pfm(bytes, name, most_pixels);
   require(raw.has_value(), name,
           ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
   require_pixels(*raw, most_pixels, name);
   return decode_raw(bytes, *raw, name);
+}
+
+void require_resolution(const DepthPixels& pixels, Resolution camera, const std::string& name) {
+  check_resolution(std::visit([](const auto& image) { return image.resolution; }, pixels), camera, name);
 }
 
 RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, const DepthEncoding& encoding,
@@ -128,19 +160,16 @@ RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, co
 
 RangeImage read_depth_image(const std::filesystem::path& path, const RangeCamera& camera,
                             const DepthEncoding& encoding) {
-  const auto ending = path.extension();
-  if (ending == ".png") return parse_depth_png(read_file(path), camera, encoding, path.string());
-  if (ending == ".raw") return parse_depth_raw(read_file(path), camera, encoding, path.string());
-  require(ending == ".exr", path.string(), ": a depth image must be a .png, .exr or .raw file");
-  const FloatImage image = decode_exr(read_file(path), path.string());
-  check_resolution(image.resolution, camera.resolution, path.string());
-  return range_image(image, camera, encoding);
+  require(is_depth_ending(path.extension().string()), path.string(),
+          ": a depth image must be a .png, .exr, .npy, .pfm or .raw file");
+  const DepthPixels pixels = decode_depth(read_file(path), camera.resolution, path.string());
+  require_resolution(pixels, camera.resolution, path.string());
+  return std::visit([&](const auto& image) { return range_image(image, camera, encoding); }, pixels);
 }
 
 Resolution read_depth_resolution(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  if (path.extension() == ".exr") return decode_exr(bytes, path.string()).resolution;
-  return decode_png16(bytes, path.string()).resolution;
+  const DepthPixels pixels = decode_depth(read_file(path), std::nullopt, path.string());
+  return std::visit([](const auto& image) { return image.resolution; }, pixels);
 }
 
 void write_depth_png(const std::filesystem::path& path, const RangeImage& image, const DepthEncoding& encoding) {

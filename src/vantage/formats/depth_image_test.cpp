@@ -72,6 +72,31 @@ TEST(Png16, OtherKindsOfImagesAreRefused) {
   EXPECT_THAT(error_in(png_of_format(PNG_FORMAT_LINEAR_Y_ALPHA)), HasSubstr("(grey with alpha, 16 bits)"));
 }
 
+/// An 8-bit image of 3x2 pixels.
+std::string png_of(png_uint_32 format, const std::vector<std::uint8_t>& values) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 3;
+  image.height = 2;
+  image.format = format;
+  png_alloc_size_t size = 4096;
+  std::string bytes(size, '\0');
+  EXPECT_NE(png_image_write_to_memory(&image, bytes.data(), &size, 0, values.data(), 0, nullptr), 0);
+  bytes.resize(size);
+  return bytes;
+}
+
+TEST(PngMask, TransparentPixelsDoNotCountWhateverTheirColour) {
+  const auto mask = [](png_uint_32 format, const std::vector<std::uint8_t>& values) {
+    return decode_png_mask(png_of(format, values), {3, 2}, "a.png");
+  };
+  EXPECT_THAT(mask(PNG_FORMAT_GA, {0, 255, 9, 0, 0, 255, 9, 255, 0, 0, 7, 1}), ElementsAre(1, 0, 1, 1, 0, 1));
+  EXPECT_THAT(mask(PNG_FORMAT_RGBA, {0, 0, 0, 255, 9, 9, 9, 0, 0, 0, 0, 255, 9, 0, 0, 255, 0, 0, 0, 0, 7, 7, 7, 1}),
+              ElementsAre(1, 0, 1, 1, 0, 1));
+  EXPECT_THAT(mask(PNG_FORMAT_GA, {0, 255, 9, 255, 0, 255, 9, 255, 0, 255, 7, 255}), ElementsAre(0, 1, 0, 1, 0, 1))
+      << "where nothing is transparent colours say it";
+}
+
 TEST(Png16, CutOffOrDamagedAnywhereItIsAnError) {
   const std::string bytes = encode_png16(random_image());
   int refused = 0;
@@ -99,7 +124,37 @@ TEST(DepthImage, UnitsMeanMetresWithinTheLimits) {
   const RangeImage own = range_image(pixels, small_camera(), own_depth_encoding);
   EXPECT_THAT(own.depth, ElementsAre(0, 1.234F, 0, 0.25F, no_return, no_return));
   const RangeImage tenths = range_image(pixels, small_camera(), {.metres_per_unit = 0.0001, .no_return = 1234});
-  EXPECT_THAT(tenths.depth, ElementsAre(0, no_return, 0, 0, 0.4501F, no_return));
+  EXPECT_THAT(tenths.depth, ElementsAre(0, no_return, 0, 0, 0.4501F, 0))
+      << "65535 is no measurement where it is not said to be one of nothing";
+}
+
+TEST(DepthImage, OtherValuesMayMeanUnknownToo) {
+  const Gray16 pixels{{3, 2}, {0, 1234, 9, 1000, 4501, 65535}};
+  EXPECT_THAT(range_image(pixels, small_camera(), {.unknown = PixelValue{1000}}).depth,
+              ElementsAre(0, 1.234F, 0, 0, no_return, 0));
+  const float infinite = std::numeric_limits<float>::infinity();
+  const FloatImage floats{{3, 2}, {1, infinite, 2, 0, -1, 9}};
+  EXPECT_THAT(range_image(floats, small_camera(), {}).depth, ElementsAre(1, no_return, 2, 0, 0, no_return));
+  EXPECT_THAT(range_image(floats, small_camera(), {.unknown = PixelValue{infinite}}).depth,
+              ElementsAre(1, 0, 2, 0, 0, no_return));
+}
+
+TEST(DepthImage, DistancesAlongTheRayBecomeDepths) {
+  RangeCamera camera = camera_from_intrinsics(2, 2, 1, 0.5, {3, 2});
+  camera.max_depth = 1.9;
+  const Gray16 distances{{3, 2}, {2000, 2000, 2000, 2000, 2000, 2000}};
+  const RangeImage image = range_image(distances, camera, {.along = DepthAlong::ray});
+  const RayGrid rays = camera.rays();
+  int inside = 0;
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      if (!RangeImage::is_hit(image.at(column, row))) continue;
+      const double depth = static_cast<double>(image.at(column, row));
+      EXPECT_NEAR(point_in_sensor(rays, column, row, depth).norm(), 2, 1e-6);
+      ++inside;
+    }
+  }
+  EXPECT_EQ(inside, 4) << "on the middle column the depth is 1.94 m, beyond the limit";
 }
 
 TEST(DepthImage, WhatIsWrittenIsReadToTheNearestUnit) {
@@ -142,7 +197,7 @@ TEST(DepthImage, WrongSizesScalesAndNamesAreRefused) {
   EXPECT_THAT(input_error_of([] { DepthEncoding{.no_return = std::uint16_t{0}}.validate(); }),
               HasSubstr("no_return = 0"));
   EXPECT_THAT(input_error_of([] { (void)read_depth_image("a.jpg", small_camera(), {}); }),
-              HasSubstr("a.jpg: a depth image must be a .png, .exr or .raw file"));
+              HasSubstr("a.jpg: a depth image must be a .png, .exr, .npy, .pfm or .raw file"));
 }
 
 TEST(DepthImage, DamagedFilesAreReadOrRefused) {

@@ -293,6 +293,50 @@ TEST(MeshFile, BadStlIsRefusedWithPlaceAndReason) {
   EXPECT_THAT(error(binary), HasSubstr("triangle 0 has a corner at (nan"));
 }
 
+double volume_of(const std::string& bytes, MeshFormat format) {
+  const TriangleMesh mesh = parse_mesh(bytes, format, "a");
+  double six_volumes = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    six_volumes += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2)));
+  return is_closed(mesh) ? six_volumes / 6 : 0;
+}
+
+TEST(MeshFile, FilesAreReadAsOtherProgramsWriteThem) {
+  const std::string mark = "\xef\xbb\xbf";
+  EXPECT_DOUBLE_EQ(volume_of(obj, MeshFormat::obj), 1);
+  EXPECT_DOUBLE_EQ(volume_of(mark + obj.substr(obj.find("v ")), MeshFormat::obj), 1) << "the first vertex is read";
+  EXPECT_DOUBLE_EQ(volume_of(mark + ascii_ply, MeshFormat::ply), 1);
+  EXPECT_DOUBLE_EQ(volume_of(mark + off, MeshFormat::off), 1);
+  EXPECT_DOUBLE_EQ(volume_of(mark + ascii_stl(), MeshFormat::stl), 1);
+  std::string capitals = ascii_stl();
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_DOUBLE_EQ(volume_of(capitals, MeshFormat::stl), 1);
+  EXPECT_DOUBLE_EQ(volume_of("v 0 0 \\\n0\nv 1 0 0\nv 0 2 \\\r\n 0\nv 0 0 3\n"
+                             "f 1 3\\\n 2\nf 1 2 4\nf 2 3 \\\n4\nf 1 4 3\n",
+                             MeshFormat::obj),
+                   1);
+}
+
+TEST(MeshFile, StripsOfTrianglesTurnEveryOtherTime) {
+  const std::string strips = ascii_ply.substr(0, ascii_ply.find("element face")) +
+                             "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+                             "0 0 0 255\n1 0 0 255\n0 2 0 0\n0 0 3 0\n";
+  // Strips of two triangles: 1 0 2, and 2 0 3 turned; then 1 3 0 and 3 1 2.
+  EXPECT_DOUBLE_EQ(volume_of(strips + "10 1 0 2 3 -1 3 0 1 -1 3\n", MeshFormat::ply), 0) << "one is missing";
+  EXPECT_DOUBLE_EQ(volume_of(strips + "11 1 0 2 3 -1 3 0 1 -1 3 1\n", MeshFormat::ply), 0);
+  EXPECT_DOUBLE_EQ(volume_of(strips + "12 1 0 2 3 -1 3 0 1 -1 3 1 2\n", MeshFormat::ply), 1);
+  EXPECT_THAT(error_in(strips + "3 0 1 4\n", MeshFormat::ply), HasSubstr("strip 0 has the vertex 4"));
+  EXPECT_THAT(error_in(strips + "3 0 1 -2\n", MeshFormat::ply), HasSubstr("strip 0 has the vertex -2"));
+}
+
+TEST(MeshFile, ALineEndAfterABinaryFileIsNoData) {
+  const TestFolder folder;
+  write_mesh_ply(folder / "mesh.ply", parse_mesh(obj, MeshFormat::obj, "a.obj"));
+  const std::string bytes = read_file(folder / "mesh.ply");
+  EXPECT_DOUBLE_EQ(volume_of(bytes + "\n", MeshFormat::ply), 1);
+  EXPECT_THAT(error_in(bytes + "\nx", MeshFormat::ply), HasSubstr("2 bytes more than the header announces"));
+}
+
 TEST(MeshFile, SurfacesWithoutExtentOrOfAbsurdSizeAreRefused) {
   const auto error = [](const std::string& vertices) { return error_in(vertices + "f 1 2 3\n", MeshFormat::obj); };
   EXPECT_THAT(error("v 1 1 1\nv 1 1 1\nv 1 1 1\n"), HasSubstr("has no extent"));

@@ -27,6 +27,25 @@ void drop_comment(TextReader& text) {
   text.set_rest_of_line(text.rest_of_line().substr(0, text.rest_of_line().find('#')));
 }
 
+/// Moves to the next statement of an OBJ file, which goes on in the next line after a backslash. `joined` holds the
+/// text of one that does.
+bool next_statement(TextReader& text, std::string& joined) {
+  if (!text.next_line()) return false;
+  drop_comment(text);
+  if (!trimmed(text.rest_of_line()).ends_with('\\')) return true;
+  joined.clear();
+  for (bool goes_on = true; goes_on;) {
+    std::string_view line = trimmed(text.rest_of_line());
+    goes_on = line.ends_with('\\');
+    if (goes_on) line.remove_suffix(1);
+    joined.append(line).append(" ");
+    if (!goes_on || !text.next_line()) break;
+    drop_comment(text);
+  }
+  text.set_rest_of_line(joined);
+  return true;
+}
+
 /// A corner of an OBJ face: `i`, `i/t`, `i//n` or `i/t/n`, from 1, or from the last vertex backwards where negative.
 int obj_corner(const TextReader& text, std::string_view word, std::size_t vertices) {
   const auto index = to_integer(word.substr(0, word.find('/')));
@@ -37,6 +56,56 @@ int obj_corner(const TextReader& text, std::string_view word, std::size_t vertic
     text.fail(fmt::format("corner {} of a face: vertices go from 1 to {} here", *index, vertices));
   }
   return static_cast<int>(from_zero);
+}
+
+/// The list of vertices of an element of a PLY file.
+const PlyColumn& corner_list(const PlyElement& element, const std::string& name) {
+  const PlyColumn* corners = element.find("vertex_indices");
+  if (corners == nullptr) corners = element.find("vertex_index");
+  if (corners == nullptr || !corners->is_list)
+    throw InputError(fmt::format("{}: element '{}' has no list 'vertex_indices'", name, element.name));
+  return *corners;
+}
+
+int ply_corner(const TriangleMesh& mesh, double index, std::string_view what, std::size_t row,
+               const std::string& name) {
+  require(index >= 0 && index < static_cast<double>(mesh.vertices.size()) && index == std::floor(index), name, ": ",
+          what, " ", row, " has the vertex ", index, ": vertices go from 0 to ", mesh.vertices.size() - 1);
+  return static_cast<int>(index);
+}
+
+void append_faces(TriangleMesh& mesh, const PlyElement& faces, const std::string& name) {
+  const PlyColumn& corners = corner_list(faces, name);
+  std::vector<int> polygon;
+  std::size_t begin = 0;
+  for (std::size_t face = 0; face < faces.rows; ++face) {
+    polygon.clear();
+    for (std::size_t i = begin; i < corners.ends[face]; ++i)
+      polygon.push_back(ply_corner(mesh, corners.values[i], "face", face, name));
+    begin = corners.ends[face];
+    append_polygon(mesh, polygon, name, face);
+  }
+}
+
+/// Strips of triangles, which share two corners with the one before and turn the other way every time; -1 starts anew.
+void append_strips(TriangleMesh& mesh, const PlyElement& strips, const std::string& name) {
+  const PlyColumn& corners = corner_list(strips, name);
+  std::size_t i = 0;
+  for (std::size_t row = 0; row < strips.rows; ++row) {
+    std::vector<int> strip;
+    for (; i < corners.ends[row]; ++i) {
+      if (corners.values[i] == -1) {
+        strip.clear();
+        continue;
+      }
+      strip.push_back(ply_corner(mesh, corners.values[i], "strip", row, name));
+      const std::size_t count = strip.size();
+      if (count < 3) continue;
+      std::array<int, 3> triangle{strip[count - 3], strip[count - 2], strip[count - 1]};
+      if (count % 2 == 0) std::swap(triangle[0], triangle[1]);
+      append_polygon(mesh, triangle, name, row);
+    }
+  }
 }
 
 /// The next line of an OFF file without its comment that has a word.
@@ -80,23 +149,11 @@ TriangleMesh parse_ply_mesh(std::string_view bytes, const std::string& name) {
     mesh.vertices.push_back(vertex);
   }
   const PlyElement* faces = ply.find("face");
-  if (faces == nullptr) throw InputError(name + ": has no faces; it is a point cloud, a mesh is needed");
-  const PlyColumn* corners = faces->find("vertex_indices");
-  if (corners == nullptr) corners = faces->find("vertex_index");
-  if (corners == nullptr || !corners->is_list) throw InputError(name + ": element 'face' has no list 'vertex_indices'");
-  std::vector<int> polygon;
-  std::size_t begin = 0;
-  for (std::size_t face = 0; face < faces->rows; ++face) {
-    polygon.clear();
-    for (std::size_t i = begin; i < corners->ends[face]; ++i) {
-      const double index = corners->values[i];
-      require(index >= 0 && index < static_cast<double>(vertices->rows) && index == std::floor(index), name, ": face ",
-              face, " has the vertex ", index, ": vertices go from 0 to ", vertices->rows - 1);
-      polygon.push_back(static_cast<int>(index));
-    }
-    begin = corners->ends[face];
-    append_polygon(mesh, polygon, name, face);
-  }
+  const PlyElement* strips = ply.find("tristrips");
+  if (faces == nullptr && strips == nullptr)
+    throw InputError(name + ": has no faces; it is a point cloud, a mesh is needed");
+  if (faces != nullptr) append_faces(mesh, *faces, name);
+  if (strips != nullptr) append_strips(mesh, *strips, name);
   return mesh;
 }
 
@@ -105,8 +162,8 @@ TriangleMesh parse_obj_mesh(std::string_view bytes, const std::string& name) {
   TriangleMesh mesh;
   std::vector<int> polygon;
   std::size_t faces = 0;
-  while (text.next_line()) {
-    drop_comment(text);
+  std::string joined;
+  while (next_statement(text, joined)) {
     const std::string_view keyword = text.word();
     if (keyword == "v") {
       mesh.vertices.push_back(read_vertex(text));  // a weight or colour may follow
@@ -114,11 +171,6 @@ TriangleMesh parse_obj_mesh(std::string_view bytes, const std::string& name) {
     } else if (keyword == "f") {
       polygon.clear();
       for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
-        if (word == "\\") {  // the statement goes on in the next line
-          if (!text.next_line()) break;
-          drop_comment(text);
-          continue;
-        }
         polygon.push_back(obj_corner(text, word, mesh.vertices.size()));
       }
       if (polygon.size() < 3) text.fail(fmt::format("a face with {} corners: must be at least 3", polygon.size()));

@@ -73,10 +73,9 @@ void read_rows(Codec& codec) {
   png_read_end(codec.png, nullptr);
 }
 
-/// Every kind of image as one or three channels of one or two bytes.
+/// Every kind of image as one to four channels of one or two bytes.
 void read_bytes(Codec& codec) {
   png_set_expand(codec.png);
-  png_set_strip_alpha(codec.png);
   const int passes = png_set_interlace_handling(codec.png);
   png_read_update_info(codec.png, codec.info);
   const std::size_t row_bytes = png_get_rowbytes(codec.png, codec.info);
@@ -150,6 +149,29 @@ void open(Reader& reader, std::string_view bytes, const std::string& name) {
   reader.image.resolution = {static_cast<int>(columns), static_cast<int>(rows)};
 }
 
+/// Reads an image of any kind that must have the size of a depth image.
+void read_any(Reader& reader, std::string_view bytes, Resolution resolution, const std::string& name) {
+  open(reader, bytes, name);
+  const Resolution found = reader.image.resolution;
+  if (!(found == resolution)) {
+    throw InputError(fmt::format("{}: has {}x{} pixels, the depth image {}x{}; a mask must have the same", name,
+                                 found.columns, found.rows, resolution.columns, resolution.rows));
+  }
+  if (!succeeds(reader, read_bytes)) throw InputError(fmt::format("{}: {}", name, reader.error));
+}
+
+/// Which of the pixels have a byte that is not 0 among `count` from `first` on.
+Mask nonzero_pixels(const std::vector<png_byte>& bytes, std::size_t pixels, std::size_t first, std::size_t count) {
+  Mask mask(pixels);
+  const std::size_t step = bytes.size() / pixels;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(i * step + first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(count);
+    mask[i] = std::any_of(begin, end, [](png_byte value) { return value != 0; }) ? 1 : 0;
+  }
+  return mask;
+}
+
 }  // namespace
 
 bool is_png(std::string_view bytes) {
@@ -177,24 +199,31 @@ Gray16 decode_png16(std::string_view bytes, const std::string& name, std::int64_
   return std::move(reader.image);
 }
 
+std::vector<std::uint16_t> decode_png_grey(std::string_view bytes, Resolution resolution, const std::string& name) {
+  Reader reader;
+  read_any(reader, bytes, resolution, name);
+  const auto pixels = static_cast<std::size_t>(resolution.rays());
+  const std::size_t step = reader.bytes.size() / pixels;
+  const bool is_wide = png_get_bit_depth(reader.png, reader.info) == 16;
+  std::vector<std::uint16_t> values(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const png_byte* value = reader.bytes.data() + i * step;
+    values[i] = is_wide ? static_cast<std::uint16_t>(value[0] << 8U | value[1]) : value[0];
+  }
+  return values;
+}
+
 Mask decode_png_mask(std::string_view bytes, Resolution resolution, const std::string& name) {
   Reader reader;
-  open(reader, bytes, name);
-  const Resolution found = reader.image.resolution;
-  if (!(found == resolution)) {
-    throw InputError(fmt::format("{}: has {}x{} pixels, the depth image {}x{}; a mask must have the same", name,
-                                 found.columns, found.rows, resolution.columns, resolution.rows));
-  }
-  if (!succeeds(reader, read_bytes)) throw InputError(fmt::format("{}: {}", name, reader.error));
-  Mask mask;
-  const std::size_t pixel_bytes = reader.bytes.size() / static_cast<std::size_t>(resolution.rays());
-  mask.reserve(static_cast<std::size_t>(resolution.rays()));
-  for (auto pixel = reader.bytes.cbegin(); pixel != reader.bytes.cend();) {
-    const auto next = pixel + static_cast<std::ptrdiff_t>(pixel_bytes);
-    mask.push_back(std::any_of(pixel, next, [](png_byte value) { return value != 0; }) ? 1 : 0);
-    pixel = next;
-  }
-  return mask;
+  read_any(reader, bytes, resolution, name);
+  const auto pixels = static_cast<std::size_t>(resolution.rays());
+  const std::size_t channels = png_get_channels(reader.png, reader.info);
+  const std::size_t channel_bytes = reader.bytes.size() / pixels / channels;
+  if (channels % 2 == 1) return nonzero_pixels(reader.bytes, pixels, 0, channels * channel_bytes);
+  const std::size_t color_bytes = (channels - 1) * channel_bytes;
+  const Mask opaque = nonzero_pixels(reader.bytes, pixels, color_bytes, channel_bytes);
+  const bool is_cut_out = std::find(opaque.begin(), opaque.end(), 0) != opaque.end();
+  return is_cut_out ? opaque : nonzero_pixels(reader.bytes, pixels, 0, color_bytes);
 }
 
 std::string encode_png16(const Gray16& image) {

@@ -33,9 +33,15 @@ void require_pixels(Resolution resolution, std::int64_t most_pixels, const std::
 /// Which pixels of an image count: 0 or 1 per pixel, row by row.
 using Mask = std::vector<std::uint8_t>;
 
-/// A PNG of any colour type and depth as a mask: black pixels (also of a palette; alpha plays no part) do not count.
+/// A PNG of any colour type and depth as a mask: black pixels (also of a palette) do not count. Where some pixels are
+/// transparent the mask lies in the alpha channel: those do not count, and colours play no part.
 /// Throws InputError as decode_png16() does, and where it has another size than the depth image, which is `resolution`.
 [[nodiscard]] Mask decode_png_mask(std::string_view bytes, Resolution resolution, const std::string& name);
+
+/// The values of a grey PNG of 8 or 16 bits (fewer bits and palettes as 8), row by row; of the first channel where it
+/// has several. Throws InputError as decode_png_mask() does.
+[[nodiscard]] std::vector<std::uint16_t> decode_png_grey(std::string_view bytes, Resolution resolution,
+                                                         const std::string& name);
 
 [[nodiscard]] std::string encode_png16(const Gray16& image);
 

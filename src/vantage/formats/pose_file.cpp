@@ -50,6 +50,22 @@ Eigen::Matrix4d matrix_of(const nlohmann::json& rows, const std::string& what) {
   return matrix;
 }
 
+Eigen::Matrix4d matrix_of_text(std::string_view bytes, const std::string& name) {
+  TextReader text(bytes, name);
+  Eigen::Matrix4d matrix;
+  for (int row = 0; row < 4; ++row) {
+    if (!text.next_line_with_words())
+      throw InputError(fmt::format("{}: has {} rows, must be 4 rows of 4 numbers", name, row));
+    for (int column = 0; column < 4; ++column) {
+      matrix(row, column) = text.number(fmt::format("number {} of row {}", column + 1, row + 1));
+    }
+    if (!text.at_end_of_line())
+      text.fail(fmt::format("{} is a fifth number, must be 4 per row", in_quotes(text.word())));
+  }
+  if (text.next_line_with_words()) text.fail("a fifth row, must be 4 rows of 4 numbers");
+  return matrix;
+}
+
 }  // namespace
 
 Pose pose_from_quaternion(const Vec3& translation, const Eigen::Quaterniond& rotation, const std::string& what) {
@@ -63,19 +79,7 @@ Pose pose_from_quaternion(const Vec3& translation, const Eigen::Quaterniond& rot
 }
 
 Pose parse_pose_text(std::string_view bytes, const std::string& name) {
-  TextReader text(bytes, name);
-  Eigen::Matrix4d matrix;
-  for (int row = 0; row < 4; ++row) {
-    if (!text.next_line_with_words())
-      throw InputError(fmt::format("{}: has {} rows, must be 4 rows of 4 numbers", name, row));
-    for (int column = 0; column < 4; ++column) {
-      matrix(row, column) = text.number(fmt::format("number {} of row {}", column + 1, row + 1));
-    }
-    if (!text.at_end_of_line())
-      text.fail(fmt::format("{} is a fifth number, must be 4 per row", in_quotes(text.word())));
-  }
-  if (text.next_line_with_words()) text.fail("a fifth row, must be 4 rows of 4 numbers");
-  return rigid_pose(matrix, name);
+  return rigid_pose(matrix_of_text(bytes, name), name);
 }
 
 Pose parse_pose_json(std::string_view bytes, const std::string& name) {
@@ -92,6 +96,12 @@ Pose parse_pose_json(std::string_view bytes, const std::string& name) {
 Pose read_pose(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   return path.extension() == ".json" ? parse_pose_json(bytes, path.string()) : parse_pose_text(bytes, path.string());
+}
+
+std::optional<Pose> read_pose_unless_lost(const std::filesystem::path& path) {
+  if (path.extension() == ".json") return read_pose(path);
+  const Eigen::Matrix4d matrix = matrix_of_text(read_file(path), path.string());
+  return matrix.allFinite() ? std::optional(rigid_pose(matrix, path.string())) : std::nullopt;
 }
 
 void write_pose(const std::filesystem::path& path, const Pose& pose) {

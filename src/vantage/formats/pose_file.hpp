@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@ namespace vantage {
 /// object with these keys, or with `matrix` as four rows. Throws InputError naming the file and what is wrong: no
 /// number, too few or too many, not a rigid motion, mirrored, NaN.
 [[nodiscard]] Pose read_pose(const std::filesystem::path& path);
+/// The same, but nothing for a matrix with a number that is not finite, as datasets write where tracking was lost.
+[[nodiscard]] std::optional<Pose> read_pose_unless_lost(const std::filesystem::path& path);
 /// The same from memory; `name` stands in errors.
 [[nodiscard]] Pose parse_pose_text(std::string_view bytes, const std::string& name);
 [[nodiscard]] Pose parse_pose_json(std::string_view bytes, const std::string& name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <map>
 
 #include "vantage/core/error.hpp"
@@ -32,6 +33,20 @@ class Welder {
 void append_triangle(TriangleMesh& mesh, const Index3& triangle) {
   if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) return;
   mesh.triangles.push_back(triangle);
+}
+
+/// The next word in small letters: some writers shout.
+std::string next_keyword(TextReader& text) {
+  std::string keyword(text.word());
+  std::transform(keyword.begin(), keyword.end(), keyword.begin(), [](unsigned char c) { return std::tolower(c); });
+  return keyword;
+}
+
+bool starts_as_text(std::string_view bytes) {
+  const std::string_view head = trimmed(without_byte_order_mark(bytes.substr(0, 512)));
+  if (head.find('\0') != std::string_view::npos) return false;
+  TextReader text(head, "");
+  return text.next_line() && next_keyword(text) == "solid";
 }
 
 std::uint32_t uint32_at(std::string_view bytes, std::size_t at) {
@@ -70,7 +85,7 @@ TriangleMesh parse_ascii(std::string_view bytes, const std::string& name) {
   bool inside = false;  // between `facet` and `endfacet`
   bool complete = false;
   while (text.next_line_with_words()) {
-    const std::string_view keyword = text.word();
+    const std::string keyword = next_keyword(text);
     if (keyword == "facet") {
       if (inside) text.fail("a facet begins before the last one has ended");
       inside = true;
@@ -103,8 +118,7 @@ TriangleMesh parse_stl_mesh(std::string_view bytes, const std::string& name) {
   const bool has_header = bytes.size() >= header_bytes;
   const std::uint64_t announced = has_header ? uint32_at(bytes, 80) : 0;
   if (has_header && bytes.size() == header_bytes + announced * triangle_bytes) return parse_binary(bytes, name);
-  const bool is_text = bytes.substr(0, 512).find('\0') == std::string_view::npos;
-  if (is_text && trimmed(bytes.substr(0, 512)).substr(0, 5) == "solid") return parse_ascii(bytes, name);
+  if (starts_as_text(bytes)) return parse_ascii(bytes, name);
   if (!has_header)
     throw InputError(name + ": is not an STL file (shorter than its header and not starting with 'solid')");
   throw InputError(

@@ -14,6 +14,7 @@
 
 #include "vantage/core/geometry.hpp"
 #include "vantage/files/text_reader.hpp"
+#include "vantage/formats/depth_image.hpp"
 #include "vantage/sensor/range_camera.hpp"
 
 namespace vantage {
@@ -65,6 +66,16 @@ struct TextValue<double> {
     return value && std::isfinite(*value) ? value : std::nullopt;
   }
   static std::string expected() { return "a finite number"; }
+};
+
+template <>
+struct TextValue<PixelValue> {
+  static std::string print(PixelValue pixel) { return fmt::format("{}", pixel.value); }
+  static std::optional<PixelValue> parse(std::string_view text) {
+    const auto value = to_double(text);
+    return value && !std::isnan(*value) ? std::optional(PixelValue{*value}) : std::nullopt;
+  }
+  static std::string expected() { return "a number or inf"; }
 };
 
 template <>

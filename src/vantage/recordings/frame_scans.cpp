@@ -3,59 +3,69 @@
 #include <fmt/format.h>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/text_reader.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
 
 namespace vantage {
 namespace {
 
-/// The options for this frame: what the recording says about its unit counts where the options leave it open.
-ScanFolderOptions options_for(const Frame& frame, ScanFolderOptions options) {
-  if (frame.metres_per_unit && options.depth_scale == ScanFolderOptions().depth_scale)
-    options.depth_scale = *frame.metres_per_unit;
-  return options;
-}
-
-Scan scan_of_frame(const Frame& frame, const View& view, const ScanFolderOptions& options) {
-  if (const auto* cloud = std::get_if<CloudFile>(&frame.measured))
-    return scan_of_cloud(*cloud, view.world_from_sensor, options);
-  require(frame.intrinsics.has_value(), frame.info.name, ": has no intrinsics; give a file with --intrinsics");
-  return scan_of_depth(std::get<DepthPixels>(frame.measured), *frame.intrinsics, frame.mask,
-                       options_for(frame, options));
-}
-
-/// The camera of depth images.
+/// The camera of a frame; nothing for clouds.
 std::optional<RangeCamera> camera_of(const Frame& frame, const ScanFolderOptions& options) {
   const auto* pixels = std::get_if<DepthPixels>(&frame.measured);
-  if (pixels == nullptr || !frame.intrinsics) return std::nullopt;
-  const Resolution resolution = std::visit([](const auto& image) { return image.resolution; }, *pixels);
-  RangeCamera camera = pinhole_camera(*frame.intrinsics, resolution);
+  if (pixels == nullptr) return std::nullopt;
+  require(frame.intrinsics.has_value(), "frame ", in_quotes(frame.info.name), ": has no intrinsics; give --intrinsics");
+  RangeCamera camera =
+      pinhole_camera(*frame.intrinsics, std::visit([](const auto& image) { return image.resolution; }, *pixels));
   camera.min_depth = options.depth_range[0];
   camera.max_depth = options.depth_range[1];
   return camera;
 }
 
+/// Errors of reading with the frame's name before them.
+template <class Read>
+auto naming(const std::string& frame, const Read& read) {
+  try {
+    return read();
+  } catch (const ResolutionError& error) {
+    throw ResolutionError(fmt::format("frame {}: {}", in_quotes(frame), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("frame {}: {}", in_quotes(frame), error.what()));
+  }
+}
+
+Scan scan_of_frame(const Frame& frame, const View& view, const ScanFolderOptions& options) {
+  ScanFolderOptions used = options;
+  if (!used.depth_scale) used.depth_scale = frame.metres_per_unit;
+  return naming(frame.info.name, [&] {
+    if (const auto* cloud = std::get_if<CloudFile>(&frame.measured))
+      return cropped(scan_of_cloud(*cloud, view.world_from_sensor, used), view, used);
+    require(frame.intrinsics.has_value(), "has no intrinsics; give --intrinsics");
+    return cropped(scan_of_depth(std::get<DepthPixels>(frame.measured), *frame.intrinsics, frame.mask, used), view,
+                   used);
+  });
+}
+
 }  // namespace
 
-ScanSet scans_of(const std::shared_ptr<FrameSource>& frames, const ScanFolderOptions& options) {
+ScanSet scans_of(const std::shared_ptr<FrameSource>& source, const ScanFolderOptions& options) {
   ScanSet set;
-  set.description = frames->description();
-  set.left_out = frames->left_out();
+  set.description = source->description();
+  set.left_out = source->left_out();
   const Pose hand_eye = hand_eye_offset(options);
-  std::optional<std::size_t> first;
-  for (std::size_t i = 0; i < frames->frames().size(); ++i) {
-    const FrameInfo& info = frames->frames()[i];
+  const bool is_masked = !options.masks.empty() || !options.confidence.empty();
+  for (std::size_t i = 0; i < source->frames().size(); ++i) {
+    const FrameInfo& info = source->frames()[i];
     if (!info.world_from_sensor) {
-      set.left_out.push_back(info.name + ": has no pose");
+      set.left_out.push_back(fmt::format("frame {} has no pose", in_quotes(info.name)));
       continue;
     }
-    if (!first) first = i;
     const View view{sensor_pose(*info.world_from_sensor, hand_eye, options)};
-    set.scans.push_back({info.name, view, [frames, i, view, options] {
-                           return cropped(scan_of_frame(frames->read(i), view, options), view, options);
-                         }});
+    set.scans.push_back({as_utf8(info.name), view,
+                         [source, i, view, options] { return scan_of_frame(source->read(i), view, options); },
+                         is_masked});
+    if (set.scans.size() == 1) set.camera = naming(info.name, [&] { return camera_of(source->read(i), options); });
   }
-  require(first.has_value(), set.description, ": no frame has a pose; give a trajectory with --poses");
-  set.camera = camera_of(frames->read(*first), options);
+  require(!set.scans.empty(), set.description, ": no frame has a pose; give a trajectory with --poses");
   return set;
 }
 

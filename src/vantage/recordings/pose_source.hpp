@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "vantage/core/geometry.hpp"
+#include "vantage/recordings/pose_match.hpp"
 
 namespace vantage {
 
-/// One pose for each of the scans with these names, which lie in `folder`: from `NAME.pose.txt` or `NAME.pose.json`
-/// beside them or in the folder `poses`, or from the trajectory file `poses` by time (names that are numbers) or by
-/// order. `poses` may be relative to `folder`. Throws InputError naming the scan without a pose and where one could be.
-[[nodiscard]] std::vector<Pose> poses_of_scans(const std::filesystem::path& folder, const std::string& poses,
-                                               const std::vector<std::string>& names);
+/// The poses of scans that lie in `folder`: from `NAME.pose.txt` or `NAME.pose.json` beside them or in the folder
+/// `poses`, or from the file of many poses `poses`. `poses` may be relative to `folder`. Scans without a pose, or whose
+/// pose is not finite, have none; throws InputError where all have none, saying where one could be.
+[[nodiscard]] MatchedPoses poses_of_scans(const std::filesystem::path& folder, const std::string& poses,
+                                          const std::vector<FrameKey>& frames, PoseMatch match);
 
 /// The path below `folder` where it exists, else as given.
 [[nodiscard]] std::filesystem::path below(const std::filesystem::path& folder, const std::string& path);

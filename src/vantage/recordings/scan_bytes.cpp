@@ -4,6 +4,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/option_text.hpp"
+#include "vantage/formats/lens.hpp"
 #include "vantage/formats/pose_file.hpp"
 #include "vantage/sensor/organised_normals.hpp"
 
@@ -48,8 +49,10 @@ PointScan without_outside(const PointScan& scan, const Box3& box, const Pose& wo
 }  // namespace
 
 DepthEncoding depth_encoding(const ScanFolderOptions& options) {
-  DepthEncoding encoding{.metres_per_unit = options.depth_scale, .no_return = std::nullopt};
+  DepthEncoding encoding{.metres_per_unit = options.metres_per_depth_unit(), .no_return = std::nullopt};
   encoding.metres_per_float = options.metres_per_unit();
+  encoding.unknown = options.unknown;
+  encoding.along = options.depth_along;
   if (options.no_return) encoding.no_return = static_cast<std::uint16_t>(*options.no_return);
   return encoding;
 }
@@ -78,9 +81,8 @@ Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics, cons
     RangeCamera camera = pinhole_camera(intrinsics, image.resolution);
     camera.min_depth = options.depth_range[0];
     camera.max_depth = options.depth_range[1];
-    RangeImage depth = range_image(image, camera, depth_encoding(options));
-    if (mask) depth = masked(std::move(depth), *mask);
-    return scan_of(undistorted(std::move(depth), intrinsics));
+    auto counted = mask ? masked(image, *mask) : image;
+    return scan_of(range_image(undistorted(std::move(counted), intrinsics), camera, depth_encoding(options)));
   };
   return std::visit(scan, pixels);
 }

@@ -15,7 +15,10 @@
 #include "vantage/formats/depth_image.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
 #include "vantage/recordings/bag_frames.hpp"
+#include "vantage/recordings/camera_source.hpp"
+#include "vantage/recordings/folder_layout.hpp"
 #include "vantage/recordings/frame_scans.hpp"
+#include "vantage/recordings/pixel_choice.hpp"
 #include "vantage/recordings/pose_source.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
 #include "vantage/sensor/organised_normals.hpp"
@@ -25,8 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array frame_endings{".depth.png", ".depth.exr", ".depth.raw"};
-constexpr const char* mask_ending = ".mask.png";
+constexpr std::array frame_endings{".depth.png", ".depth.exr", ".depth.npy", ".depth.pfm", ".depth.raw"};
 constexpr std::array cloud_endings{".ply", ".pcd", ".xyz", ".xyzn"};
 constexpr std::array conf_endings{".conf"};
 
@@ -57,28 +59,6 @@ std::vector<Found> files_ending_with(const fs::path& folder, std::span<const cha
   return found;
 }
 
-std::vector<std::string> names_of(const std::vector<Found>& files) {
-  std::vector<std::string> names;
-  for (const Found& file : files) names.push_back(file.name);
-  return names;
-}
-
-fs::path intrinsics_file(const fs::path& folder, const ScanFolderOptions& options) {
-  if (!options.intrinsics.empty()) return below(folder, options.intrinsics);
-  constexpr std::array<const char*, 7> usual{"camera-intrinsics.txt",
-                                             "camera-intrinsics.yaml",
-                                             "camera-intrinsics.json",
-                                             "camera_info.yaml",
-                                             "intrinsics.txt",
-                                             "intrinsics.json",
-                                             "camera.json"};
-  for (const char* name : usual) {
-    if (fs::exists(folder / name)) return folder / name;
-  }
-  throw InputError(fmt::format("{}: has no intrinsics; must have one of {}, or give a file with --intrinsics",
-                               folder.string(), fmt::join(usual, ", ")));
-}
-
 Resolution image_resolution(const Found& frame, const Intrinsics& intrinsics) {
   if (frame.path.extension() != ".raw") return read_depth_resolution(frame.path);
   require(intrinsics.resolution.has_value(), frame.path.string(),
@@ -86,66 +66,76 @@ Resolution image_resolution(const Found& frame, const Intrinsics& intrinsics) {
   return *intrinsics.resolution;
 }
 
-/// The mask of a frame; nothing where it has none and needs none.
-std::optional<fs::path> mask_file(const fs::path& folder, const std::string& name, const ScanFolderOptions& options) {
-  fs::path mask = (options.masks.empty() ? folder : below(folder, options.masks)) / (name + mask_ending);
-  if (fs::exists(mask)) return mask;
-  require(options.masks.empty(), mask.string(), ": there is no such file; with --masks each frame must have one");
-  return std::nullopt;
-}
+/// A scan that has a pose.
+struct Posed {
+  Found file;
+  Pose world_from_sensor;
+};
 
-std::vector<Pose> sensor_poses(const fs::path& folder, const std::vector<Found>& scans,
-                               const ScanFolderOptions& options) {
-  std::vector<Pose> poses = poses_of_scans(folder, options.poses, names_of(scans));
+/// The scans that have a pose, with it; the others are named in the set as left out.
+std::vector<Posed> posed_scans(const fs::path& folder, const std::vector<Found>& scans,
+                               const ScanFolderOptions& options, ScanSet& set) {
+  std::vector<FrameKey> keys;
+  for (const Found& scan : scans) keys.push_back({scan.name, std::nullopt});
+  const MatchedPoses matched = poses_of_scans(folder, options.poses, keys, options.match);
   const Pose hand_eye = hand_eye_offset(options);
-  for (Pose& pose : poses) pose = sensor_pose(pose, hand_eye, options);
-  return poses;
+  std::vector<Posed> posed;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (matched.poses[i]) {
+      posed.push_back({scans[i], sensor_pose(*matched.poses[i], hand_eye, options)});
+    } else {
+      set.left_out.push_back(fmt::format("scan {} {}", in_quotes(scans[i].name), matched.why_not[i]));
+    }
+  }
+  return posed;
 }
 
-Mask read_mask(const fs::path& path, Resolution resolution) {
-  return decode_png_mask(read_file(path), resolution, path.string());
-}
+bool has_mask(const fs::path& folder, const std::string& name) { return fs::exists(folder / (name + ".mask.png")); }
 
 ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& frames, const ScanFolderOptions& options) {
-  const fs::path file = intrinsics_file(folder, options);
+  const fs::path file = intrinsics_file(folder, options.intrinsics);
   const Intrinsics intrinsics = read_intrinsics(file);
   RangeCamera camera;
+  const auto place = [&](const InputError& error) {
+    return fmt::format("{} with {}: {}", file.string(), frames.front().path.filename().string(), error.what());
+  };
   try {
     camera = pinhole_camera(intrinsics, image_resolution(frames.front(), intrinsics));
+  } catch (const ResolutionError& error) {
+    throw ResolutionError(place(error));
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{} with {}: {}", file.string(), frames.front().path.filename().string(), error.what()));
+    throw InputError(place(error));
   }
   camera.min_depth = options.depth_range[0];
   camera.max_depth = options.depth_range[1];
-  const DepthEncoding encoding = depth_encoding(options);
-  const std::vector<Pose> poses = sensor_poses(folder, frames, options);
-  ScanSet set;
-  set.camera = camera;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const fs::path path = frames[i].path;
-    const View view{poses[i]};
-    const std::optional<fs::path> mask = mask_file(folder, frames[i].name, options);
-    set.scans.push_back({frames[i].name, view, [path, mask, camera, encoding, intrinsics, view, options] {
-                           RangeImage image = read_depth_image(path, camera, encoding);
-                           if (mask) image = masked(std::move(image), read_mask(*mask, camera.resolution));
-                           return cropped(scan_of(undistorted(std::move(image), intrinsics)), view, options);
-                         }});
+  ScanSet set{{}, camera, {}, {}};
+  for (const auto& [frame, world_from_sensor] : posed_scans(folder, frames, options, set)) {
+    const fs::path path = frame.path;
+    const View view{world_from_sensor};
+    require_pixel_choices(folder, {frame.name}, options);
+    const bool is_masked = !options.masks.empty() || !options.confidence.empty() || has_mask(folder, frame.name);
+    set.scans.push_back({as_utf8(frame.name), view,
+                         [folder, name = frame.name, path, camera, intrinsics, view, options] {
+                           const DepthPixels pixels = decode_depth(read_file(path), camera.resolution, path.string());
+                           require_resolution(pixels, camera.resolution, path.string());
+                           const auto counts = counted_pixels(folder, {name}, options, camera.resolution);
+                           return cropped(scan_of_depth(pixels, intrinsics, counts, options), view, options);
+                         },
+                         is_masked});
   }
   return set;
 }
 
 ScanSet open_clouds(const fs::path& folder, const std::vector<Found>& files, const ScanFolderOptions& options) {
-  const std::vector<Pose> poses = sensor_poses(folder, files, options);
   ScanSet set;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const fs::path path = files[i].path;
+  for (const auto& [file, world_from_sensor] : posed_scans(folder, files, options, set)) {
+    const fs::path path = file.path;
     // Only a PCD file has a viewpoint of its own, and its header has to be read for it.
     Pose cloud_from_sensor =
         cloud_format(path) == CloudFormat::pcd ? read_cloud(path).cloud_from_sensor : Pose(Pose::Identity());
     cloud_from_sensor.translation() *= options.metres_per_unit();
-    const View view{options.cloud_frame == "world" ? poses[i] : Pose(poses[i] * cloud_from_sensor)};
-    set.scans.push_back({files[i].name, view, [path, view, options] {
+    const View view{options.cloud_frame == "world" ? world_from_sensor : Pose(world_from_sensor * cloud_from_sensor)};
+    set.scans.push_back({as_utf8(file.name), view, [path, view, options] {
                            return cropped(scan_of_cloud(read_cloud(path), view.world_from_sensor, options), view,
                                           options);
                          }});
@@ -166,17 +156,31 @@ Scan read_line_scan(const fs::path& path, const Eigen::Vector2d& origin) {
   return scan;
 }
 
+/// The file of a scan that a .conf names, with or without its ending; nothing where it is not there.
+std::optional<fs::path> conf_scan_file(const fs::path& folder, const std::string& name) {
+  for (const char* ending : {"", ".ply"}) {
+    const fs::path path = folder / (name + ending);
+    if (fs::is_regular_file(path)) return path;
+  }
+  return std::nullopt;
+}
+
 ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
   ScanSet set;
   for (const ConfScan& scan : parse_conf(read_file(file), file.string())) {
-    const fs::path path = file.parent_path() / scan.file;
-    require(fs::exists(path), file.string(), ": names the scan ", in_quotes(scan.file),
-            ", which does not lie beside it");
+    const std::optional<fs::path> path = conf_scan_file(file.parent_path(), scan.file);
+    if (!path) {
+      set.left_out.push_back(
+          fmt::format("scan {} does not lie beside {}", in_quotes(scan.file), file.filename().string()));
+      continue;
+    }
     const View view{scan.world_from_scan};
-    set.scans.push_back({path.stem().string(), view, [path, view, options] {
+    set.scans.push_back({as_utf8(path->stem().string()), view, [path = *path, view, options] {
                            return cropped(read_line_scan(path, options.scanner_origin), view, options);
                          }});
   }
+  require(!set.scans.empty(), file.string(), ": none of the ", set.left_out.size(),
+          " scans that it names lies beside it; ", set.left_out.front());
   return set;
 }
 
@@ -190,15 +194,19 @@ ScanSet open_bag_scans(const fs::path& path, const ScanFolderOptions& options) {
 }
 
 ScanSet open_folder(const fs::path& folder, const ScanFolderOptions& options) {
-  const std::vector<Found> frames = files_ending_with(folder, frame_endings);
+  const std::vector<Found> frames =
+      options.depth.empty() ? files_ending_with(folder, frame_endings) : std::vector<Found>();
   if (!frames.empty()) return open_depth_frames(folder, frames, options);
   if (is_bag(folder)) return open_bag_scans(folder, options);
+  if (auto layout = recognise_layout(folder, options)) return scans_of_layout(folder, std::move(*layout), options);
   const std::vector<Found> confs = files_ending_with(folder, conf_endings);
   require(confs.size() <= 1, folder.string(), ": has ", confs.size(), " .conf files; give the path of one");
   if (!confs.empty()) return open_conf(confs.front().path, options);
   std::vector<Found> clouds = files_ending_with(folder, cloud_endings);
   require(!clouds.empty(), folder.string(),
-          ": has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, or a .conf file");
+          ": has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, a .conf file, or the layout "
+          "of a "
+          "data set (docs/input.md); depth images of other names are given with --depth 'PATTERN'");
   return open_clouds(folder, clouds, options);
 }
 
@@ -235,9 +243,12 @@ void ScanFolderOptions::validate() const {
           "crop: must be cx,cy,cz,sx,sy,sz with positive sizes");
   require(cloud_frame == "sensor" || cloud_frame == "world", "cloud-frame = '", cloud_frame,
           "': must be sensor or world");
-  DepthEncoding{.metres_per_unit = depth_scale, .no_return = std::nullopt}.validate();
+  if (!confidence.empty()) (void)confidence_choice(confidence);
+  DepthEncoding{.metres_per_unit = metres_per_depth_unit(), .no_return = std::nullopt}.validate();
   require(depth_range.allFinite() && depth_range[0] >= 0 && depth_range[1] > depth_range[0],
           "depth range = ", depth_range[0], ",", depth_range[1], " m: must be NEAR,FAR with 0 <= NEAR < FAR");
+  require(!no_return || !unknown || unknown->value != *no_return, "unknown = ", unknown ? unknown->value : 0,
+          ": is the value of no-return");
   require(!no_return || (*no_return > 0 && *no_return <= 65535), "no-return = ", no_return.value_or(0),
           ": must be within 1 and 65535");
   require(every >= 1, "every = ", every, ": must be at least 1");

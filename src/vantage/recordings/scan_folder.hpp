@@ -8,23 +8,34 @@
 #include <vector>
 
 #include "vantage/formats/camera_file.hpp"
+#include "vantage/formats/depth_image.hpp"
 #include "vantage/map/scan.hpp"
+#include "vantage/recordings/pose_source.hpp"
 
 namespace vantage {
 
 /// How to read a folder of scans.
 struct ScanFolderOptions {
-  double depth_scale = 0.001;  // metres per unit of a depth image
+  /// Metres per unit of a depth image of whole numbers; what the data set says, else 0.001, if not given.
+  std::optional<double> depth_scale = std::nullopt;
   /// Metres. Nearer is unknown, farther is "nothing up to there".
   Eigen::Vector2d depth_range{0, 4.5};
   /// Value of a depth image that says "nothing there", where the sensor knows it.
   std::optional<int> no_return = std::nullopt;
+  /// Value that says "not measured", beside 0 and, of 16 bits, 65535; may be infinite.
+  std::optional<PixelValue> unknown = std::nullopt;
+  DepthAlong depth_along = DepthAlong::axis;
+  /// Which files are the depth images, as a pattern below the scans' folder ("depth/*.png"); empty: recognised.
+  std::string depth = "";
   /// Folder of pose files or trajectory, in the scans' folder or by its own path; empty: beside the scans.
   std::string poses = "";
+  PoseMatch match = PoseMatch::automatic;  // of the poses of a trajectory with scans
   /// File, likewise; empty: one of the usual names.
   std::string intrinsics = "";
   /// Folder of masks NAME.mask.png, likewise; empty: those that lie beside the scans.
   std::string masks = "";
+  /// Folder of confidence images and the least confidence that counts, FOLDER,LEAST; empty: all pixels count.
+  std::string confidence = "";
   /// y and z of the point where the sight lines of a Stanford scan meet, metres in its frame.
   Eigen::Vector2d scanner_origin{0.18, 1.3};
   /// Unit of poses, clouds and floating-point depths: m, cm, mm or inch.
@@ -46,19 +57,31 @@ struct ScanFolderOptions {
   /// Throws InputError naming the option.
   void validate() const;
   [[nodiscard]] double metres_per_unit() const;
+  [[nodiscard]] double metres_per_depth_unit() const { return depth_scale.value_or(0.001); }
   /// Whether `hand_eye` names a file, rather than being empty or numbers.
   [[nodiscard]] bool hand_eye_is_file() const { return !hand_eye.empty() && hand_eye.find(',') == std::string::npos; }
 };
 
 template <class Field>
 void describe(ScanFolderOptions& o, Field&& field) {
-  field("depth-scale", o.depth_scale, "m", "what one unit of a depth image means");
+  field("depth-scale", o.depth_scale, "m",
+        "what one unit of a depth image means; what the data set says, else 0.001, if not given");
   field("depth-range", o.depth_range, "m", "nearest and farthest depth to trust; beyond is free space up to the limit");
   field("no-return", o.no_return, "", "value of a depth image that says that nothing is there");
+  field("unknown", o.unknown, "",
+        "value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf");
+  field("depth-along", o.depth_along, "",
+        "what depths are measured along: axis (z), or ray (distance from the sensor)");
+  field("depth", o.depth, "",
+        "pattern of the depth images below the folder, like depth/*.png; recognised if not given");
   field("poses", o.poses, "", "folder of pose files or trajectory (TUM); beside the frames if not given");
+  field("match", o.match, "",
+        "how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto");
   field("intrinsics", o.intrinsics, "", "file with the intrinsics; one of the usual names if not given");
   field("masks", o.masks, "",
         "folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given");
+  field("confidence", o.confidence, "",
+        "FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown");
   field("unit", o.unit, "", "unit of poses, clouds and floating-point depths: m, cm, mm or inch");
   field("hand-eye", o.hand_eye, "unit",
         "pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's");
@@ -75,13 +98,14 @@ struct ScanFile {
   std::string name;
   View view;
   std::function<Scan()> read;  // opens the file; throws InputError naming it
+  bool is_masked = false;      // whether a mask or confidences take pixels away
 };
 
 struct ScanSet {
   std::vector<ScanFile> scans;        // by name, numbers by value
   std::optional<RangeCamera> camera;  // of depth images
-  std::string description;            // of a recording: one line, what was recognised
-  std::vector<std::string> left_out;  // of a recording: frames and parts that could not be read, and why
+  std::string description;            // one line: "TUM RGB-D: 613 depth images, trajectory groundtruth.txt"
+  std::vector<std::string> left_out;  // what is named but cannot be used, a sentence each: "scan 'a' has no pose"
 };
 
 /// The scans of

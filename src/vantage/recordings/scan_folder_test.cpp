@@ -79,8 +79,53 @@ TEST(ScanFolder, NamesThatAreTimesFindTheNearestPose) {
   EXPECT_TRUE(set.scans[0].view.world_from_sensor.isApprox(pose_number(0), 1e-12));
   EXPECT_TRUE(set.scans[1].view.world_from_sensor.isApprox(pose_number(2), 1e-12));
   write_trajectory(folder / "poses.tum", {{100.49, pose_number(0)}, {100.99, pose_number(1)}});
-  EXPECT_THAT(input_error_of([&] { (void)open_scans(folder.path(), {.poses = "poses.tum"}); }),
-              HasSubstr("scan '100.93': the nearest pose is 0.060 s away, must be within 0.02 s"));
+  const ScanSet rest = open_scans(folder.path(), {.poses = "poses.tum", .match = PoseMatch::time});
+  EXPECT_THAT(names(rest), ElementsAre("100.50"));
+  EXPECT_THAT(rest.left_out, ElementsAre("scan '100.93' has no pose within 0.02 s"));
+}
+
+TEST(ScanFolder, NumberedFramesGoWithTheTimesOfATrajectoryInTheirOrder) {
+  const TestFolder folder;
+  write_frames(folder, {"000000", "000001"});
+  write_trajectory(folder / "poses.tum", {{1305031102.17, pose_number(4)}, {1305031102.21, pose_number(5)}});
+  const ScanSet set = open_scans(folder.path(), {.poses = "poses.tum"});
+  ASSERT_EQ(set.scans.size(), 2U);
+  EXPECT_TRUE(set.scans[1].view.world_from_sensor.isApprox(pose_number(5), 1e-12));
+  EXPECT_THAT(
+      input_error_of([&] { (void)open_scans(folder.path(), {.poses = "poses.tum", .match = PoseMatch::time}); }),
+      HasSubstr("none of the 2 scans has a pose within 20 ms"));
+}
+
+TEST(ScanFolder, FramesWithoutAPoseAreLeftOutAndNamed) {
+  const TestFolder folder;
+  write_frames(folder, {"a", "b", "c"});
+  write_pose(folder / "a.pose.txt", pose_number(0));
+  write_file_atomically(folder / "b.pose.txt",
+                        "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n0 0 0 1\n");
+  const ScanSet set = open_scans(folder.path());
+  EXPECT_THAT(names(set), ElementsAre("a"));
+  EXPECT_THAT(set.left_out,
+              ElementsAre("scan 'b' has a pose that is not finite: tracking was lost", "scan 'c' has no pose"));
+}
+
+TEST(ScanFolder, NamesThatAreNoUtf8AreSpelled) {
+  const TestFolder folder;
+  write_frames(folder, {"caf\xe9"});
+  write_pose(folder / "caf\xe9.pose.txt", pose_number(0));
+  const ScanSet set = open_scans(folder.path());
+  EXPECT_THAT(names(set), ElementsAre("caf\\xe9"));
+  EXPECT_EQ(std::get<ImageScan>(set.scans[0].read()).image.at(20, 15), 1.0F);
+}
+
+TEST(ScanFolder, AConfGoesOnWithoutScansThatDoNotLieBesideIt) {
+  const TestFolder folder;
+  write_file_atomically(folder / "a.conf", "mesh thing_cyl 0 0 0 0 0 0 1\nbmesh b.ply 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(input_error_of([&] { (void)open_scans(folder / "a.conf"); }),
+              HasSubstr("a.conf: none of the 2 scans that it names lies beside it; scan 'thing_cyl' does not"));
+  write_file_atomically(folder / "b.ply", "");
+  const ScanSet set = open_scans(folder / "a.conf");
+  EXPECT_THAT(names(set), ElementsAre("b"));
+  EXPECT_THAT(set.left_out, ElementsAre("scan 'thing_cyl' does not lie beside a.conf"));
 }
 
 TEST(ScanFolder, RawFloatsTakeTheirSizeFromTheIntrinsics) {
@@ -126,9 +171,8 @@ TEST(ScanFolder, WhatIsMissingIsNamed) {
   const auto error = [&](const ScanFolderOptions& options = {}) {
     return input_error_of([&] { (void)open_scans(folder.path(), options); });
   };
-  EXPECT_THAT(
-      error(),
-      HasSubstr("has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, or a .conf file"));
+  EXPECT_THAT(error(),
+              HasSubstr("has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, a .conf file"));
   EXPECT_THAT(input_error_of([&] { (void)open_scans(folder / "none"); }),
               HasSubstr("none: there is no such file or folder"));
   write_frames(folder, {"a"});
