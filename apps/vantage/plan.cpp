@@ -92,6 +92,10 @@ void plan(PlanRequest& request) {
     folder->set_candidates(planner.candidates(),
                            fmt::format("sphere:{}:{:.3f}", request.options.scene.views, fitted.radius));
   }
+  if (!request.program.quiet) {
+    print_note("sensor, {}: standard deviation {}\n", scans.sensor_is_given() ? "as given" : "estimated",
+               vantage::description(scans.model().sensor));
+  }
   tell_of_scans(planner, scans.model().scans);
   const std::optional<Plan> next = planner.next_best_view(scans.model().map, scans.current());
   RunSummary summary;

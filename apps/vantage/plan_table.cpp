@@ -82,11 +82,12 @@ void print_scan_set(const ScanSet& set) {
 
 std::string record_line(const ScanRecord& record) {
   return fmt::format(
-      "{:<24} {:<20} overlap {:>5.1f} %  residual {:>6.2f} mm  moved {:>5.1f} mm {:>4.1f} deg  {:>5} new voxels{}\n",
+      "{:<24} {:<20} overlap {:>5.1f} %  residual {:>6.2f} mm  moved {:>5.1f} mm {:>4.1f} deg  {:>5} new voxels"
+      "{:>5} taken back  {:>5} flying pixels{}\n",
       printable(record.reason), record.verdict, 100 * record.overlap, 1000 * record.residual,
       1000 * (record.registered.position() - record.believed.position()).norm(),
       degrees(rotation_angle(record.registered.world_from_sensor.linear(), record.believed.world_from_sensor.linear())),
-      record.new_occupied, record.merged ? "" : "  NOT MERGED");
+      record.new_occupied, record.taken_back, record.flying, record.merged ? "" : "  NOT MERGED");
 }
 
 void print_move(const Move& move) {

@@ -142,18 +142,22 @@ void bind_simulation(py::module_& module) {
   py::class_<SimulatedRobot>(module, "SimulatedRobot",
                              "A free flyer with a range camera that may err: it believes to be where it was sent.")
       .def(py::init([](const RangeScanner& scanner, const RangeCamera& camera, const Vec3& positioning_error,
-                       const Eigen::Vector2d& depth_noise, std::uint64_t seed) {
+                       const std::vector<double>& depth_noise, const std::string& sensor, std::uint64_t seed) {
+             require(depth_noise.size() == 2 || depth_noise.size() == 3, "depth_noise has ", depth_noise.size(),
+                     " numbers; must have 2 or 3");
              ReconstructOptions options;
              options.positioning_error = positioning_error;
-             options.depth_noise = depth_noise;
+             options.depth_noise = {depth_noise[0], depth_noise[1], depth_noise.size() == 3 ? depth_noise[2] : 0};
+             options.sensor = sensor;
              options.registration = "icp";  // the first pose is exact
              options.validate();
              return std::make_unique<SimulatedRobot>(scanner, camera, simulated_robot_options(options), seed);
            }),
            py::arg("scanner"), py::arg("camera"), py::kw_only(), py::arg("positioning_error") = Vec3(Vec3::Zero()),
-           py::arg("depth_noise") = Eigen::Vector2d(Eigen::Vector2d::Zero()), py::arg("seed") = 1,
+           py::arg("depth_noise") = std::vector<double>{0, 0}, py::arg("sensor") = "ideal", py::arg("seed") = 1,
            py::keep_alive<1, 2>(),
-           "positioning_error (3,): standard deviation per axis, metres; depth_noise (2,): A, B of A + B z^2.")
+           "positioning_error (3,): standard deviation per axis, metres; depth_noise: A, B[, C] of A + B z^2 + C "
+           "tan^2(incidence), instead of the deviation of the sensor, one of sensor_names, where it is not 0.")
       .def("move_to", &SimulatedRobot::move_to, py::arg("view"), Release(), "False where it cannot get there.")
       .def("take_range_image", &SimulatedRobot::take_range_image, Release())
       .def_property_readonly("view", &SimulatedRobot::view, "(4, 4), where the robot believes to be.")

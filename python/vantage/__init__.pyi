@@ -623,8 +623,8 @@ class RangeScanner:
 
 class SimulatedRobot:
     """A free flyer with a range camera that may err: it believes to be where it was sent."""
-    def __init__(self, scanner: RangeScanner, camera: RangeCamera, *, positioning_error: ArrayLike = ..., depth_noise: ArrayLike = ..., seed: int = 1) -> None:
-        """positioning_error (3,): standard deviation per axis, metres; depth_noise (2,): A, B of A + B z^2."""
+    def __init__(self, scanner: RangeScanner, camera: RangeCamera, *, positioning_error: ArrayLike = ..., depth_noise: List[float] = [0.0, 0.0], sensor: str = 'ideal', seed: int = 1) -> None:
+        """positioning_error (3,): standard deviation per axis, metres; depth_noise: A, B[, C] of A + B z^2 + C tan^2(incidence), instead of the deviation of the sensor, one of sensor_names, where it is not 0."""
     def move_to(self, view: ArrayLike) -> bool:
         """False where it cannot get there."""
     def take_range_image(self) -> RangeImage: ...
@@ -649,7 +649,11 @@ def simulate(object: Union[str, TriangleMesh], on_scan: Optional[Callable[[ScanR
         camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
         depth_range = 0,4.5 [m]: nearest and farthest depth along the axis
         max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
-        depth_noise = 0,0 [m, 1/m]: A,B: standard deviation of a depth z is A + B z^2
+        sensor = ideal: how the sensor errs: ideal, primesense, realsense-d435, realsense-l515, azure-kinect, structured-light
+        depth_noise = 0,0 [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence); where not 0, instead of the sensor's
+        mixed_pixels = none: share of the pixels at depth edges that measure something in between; the sensor's if not given
+        flying_pixels = keep: pixels that no surface around them explains: remove or keep
+        map = paper: how voxels become occupied: paper (by a point, for ever) or evidence
         quality = axis: what a point's quality is measured against: axis or ray
         candidates = sphere:80:2: candidate views: sphere:N:RADIUS or cube:N:SIDE:INNER:OUTER (metres)
         body_radius = 0 [m]: radius of the robot's body around the sensor
@@ -751,6 +755,10 @@ class ScanModel:
         pose_error = 0.05 [m]: how far off the poses may be at most
         pose_angle_error = 5 [degrees]: how far turned the poses may be at most
         surroundings = 0.5 [box sides]: how far around the box things stand still, so that registration may use them
+        sensor = none: how the sensor errs: ideal, primesense, realsense-d435, realsense-l515, azure-kinect, structured-light; estimated from the scans if neither this nor depth-noise is given
+        depth_noise = none [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence), instead of the sensor's
+        flying_pixels = remove: pixels of depth images that no surface around them explains: remove (they become unknown) or keep
+        map = evidence: how voxels become occupied: evidence (points against rays through them) or paper (by a point, for ever)
         depth_scale = 0.001 [m]: what one unit of a depth image means
         depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
         no_return = none: value of a depth image that says that nothing is there
@@ -823,6 +831,10 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         pose_error = 0.05 [m]: how far off the poses may be at most
         pose_angle_error = 5 [degrees]: how far turned the poses may be at most
         surroundings = 0.5 [box sides]: how far around the box things stand still, so that registration may use them
+        sensor = none: how the sensor errs: ideal, primesense, realsense-d435, realsense-l515, azure-kinect, structured-light; estimated from the scans if neither this nor depth-noise is given
+        depth_noise = none [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence), instead of the sensor's
+        flying_pixels = remove: pixels of depth images that no surface around them explains: remove (they become unknown) or keep
+        map = evidence: how voxels become occupied: evidence (points against rays through them) or paper (by a point, for ever)
         depth_scale = 0.001 [m]: what one unit of a depth image means
         depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
         no_return = none: value of a depth image that says that nothing is there
@@ -927,6 +939,10 @@ class Session:
             pose_error = 0.05 [m]: how far off the poses may be at most
             pose_angle_error = 5 [degrees]: how far turned the poses may be at most
             surroundings = 0.5 [box sides]: how far around the box things stand still, so that registration may use them
+            sensor = none: how the sensor errs: ideal, primesense, realsense-d435, realsense-l515, azure-kinect, structured-light; estimated from the scans if neither this nor depth-noise is given
+            depth_noise = none [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence), instead of the sensor's
+            flying_pixels = remove: pixels of depth images that no surface around them explains: remove (they become unknown) or keep
+            map = evidence: how voxels become occupied: evidence (points against rays through them) or paper (by a point, for ever)
             depth_scale = 0.001 [m]: what one unit of a depth image means
             depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
             no_return = none: value of a depth image that says that nothing is there

@@ -59,7 +59,7 @@ void CompareOptions::validate() const {
 
 ReconstructOptions CompareOptions::run_options() const {
   ReconstructOptions options;
-  options.depth_noise = depth_noise;
+  options.depth_noise = {depth_noise.x(), depth_noise.y()};
   options.positioning_error = positioning_error;
   options.registration = registration;
   options.max_views = budget();

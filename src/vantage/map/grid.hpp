@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "vantage/core/geometry.hpp"
+#include "vantage/map/evidence.hpp"
 
 namespace vantage {
 
@@ -51,6 +52,7 @@ struct SceneOptions {
   double voxel_length = 0.02;                    // metres
   Index3 scene_size = Index3::Constant(205);     // voxels
   Index3 enclosure_size = Index3::Constant(55);  // voxels; the parity of both sizes should agree
+  MapRule rule = MapRule::paper;
 
   void validate() const;
   [[nodiscard]] Grid grid() const;

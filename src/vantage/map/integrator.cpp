@@ -2,10 +2,13 @@
 
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/map/block_pixels.hpp"
+#include "vantage/map/look_through.hpp"
+#include "vantage/map/point_support.hpp"
 #include "vantage/map/sensor_distance.hpp"
 #include "vantage/map/voxel_ray.hpp"
 
@@ -157,7 +160,7 @@ class BlockCarver {
   const LatticeProjection& projection_;
 };
 
-IntegrationReport add_points(VoxelMap& map, const ScanLimits& limits, const RangeImage& image,
+IntegrationReport add_points(VoxelMap& map, PointSupport& support, const ScanLimits& limits, const RangeImage& image,
                              std::span<const Vec3f> normals_in_sensor, const View& view, QualityReference reference) {
   const RayGrid rays = image.camera.rays();
   const Mat3 rotation = view.world_from_sensor.linear();
@@ -166,19 +169,19 @@ IntegrationReport add_points(VoxelMap& map, const ScanLimits& limits, const Rang
   for (const std::vector<ScanPoint>& band : limits.points()) {
     report.points_in_enclosure += static_cast<std::int64_t>(band.size());
     for (const ScanPoint& point : band) {
-      const auto [surface, is_new] = map.occupy(point.voxel + map.enclosure().min);
+      const Vec3f normal_in_sensor =
+          normals_in_sensor.empty() ? Vec3f(Vec3f::Zero()) : normals_in_sensor[static_cast<std::size_t>(point.pixel)];
+      const Vec3 normal = rotation * normal_in_sensor.cast<double>();
+      const bool has_normal = !normal.isZero(0);
+      const auto [surface, is_new] = support.add(point.voxel + map.enclosure().min, has_normal);
       if (is_new) ++report.new_occupied;
-      if (normals_in_sensor.empty()) continue;
-      const Vec3 normal_in_sensor = normals_in_sensor[static_cast<std::size_t>(point.pixel)].cast<double>();
-      if (normal_in_sensor.isZero(0)) continue;
-      const Vec3 normal = rotation * normal_in_sensor;
-      if (normal.isZero(0)) continue;
+      if (surface == nullptr || !has_normal) continue;
       const Vec3 towards =
           reference == QualityReference::axis
               ? view.axis()
               : Vec3(
                     ray_direction(rotation, rays.x(point.pixel % columns), rays.y(point.pixel / columns)).normalized());
-      surface.add(normal, point_quality(normal, towards));
+      surface->add(normal, point_quality(normal, towards));
     }
   }
   return report;
@@ -194,6 +197,17 @@ bool rays_are_faster(const VoxelMap& map, const RangeCamera& camera, const View&
   return map.grid().box(map.enclosure()).exteriorDistance(view.position()) < reach;
 }
 
+std::int64_t Integrator::look_through(VoxelMap& map, const RangeCamera& camera, const View& view,
+                                      const StepCounts& steps) const {
+  LookThrough looker(map, camera, view, steps, limits_, projection_);
+  const int layers = (map.layout().size.z() + LookThrough::side - 1) / LookThrough::side;
+  std::vector<int> emptied(static_cast<std::size_t>(layers));
+  parallel_for(emptied.size(), [&](std::size_t layer) {
+    emptied[layer] = looker.count_layer(LookThrough::side * static_cast<int>(layer));
+  });
+  return std::accumulate(emptied.begin(), emptied.end(), std::int64_t{0});
+}
+
 IntegrationReport Integrator::integrate(VoxelMap& map, const RangeImage& image,
                                         std::span<const Vec3f> normals_in_sensor, const View& view,
                                         QualityReference reference) {
@@ -207,11 +221,14 @@ IntegrationReport Integrator::integrate(VoxelMap& map, const RangeImage& image,
   }
   projection_.prepare(map.grid(), map.enclosure(), image.camera, view);
   limits_.prepare(map, image, view, steps);
-  const IntegrationReport report = add_points(map, limits_, image, normals_in_sensor, view, reference);
+  PointSupport support(map);
+  IntegrationReport report = add_points(map, support, limits_, image, normals_in_sensor, view, reference);
+  if (map.rule() == MapRule::evidence) report.taken_back = look_through(map, image.camera, view, steps);
   BlockCarver carver(map, image, view, steps, limits_, projection_);
   const int layers = (map.layout().size.z() + block_side - 1) / block_side;
   parallel_for(static_cast<std::size_t>(layers),
                [&](std::size_t layer) { carver.carve_layer(block_side * static_cast<int>(layer)); });
+  support.finish();
   map.update_occplane();
   return report;
 }

@@ -24,6 +24,10 @@ class Integrator {
                               const View& view, QualityReference reference = QualityReference::axis);
 
  private:
+  /// Counts the look-throughs of the scan in `limits_`; how many occupied voxels became empty by it.
+  [[nodiscard]] std::int64_t look_through(VoxelMap& map, const RangeCamera& camera, const View& view,
+                                          const StepCounts& steps) const;
+
   ScanLimits limits_;
   LatticeProjection projection_;
 };

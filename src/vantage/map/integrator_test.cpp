@@ -12,6 +12,22 @@ namespace {
 
 using test::AnalyticScene;
 
+template <class Visit>
+void for_each_voxel(const VoxelMap& map, const Visit& visit) {
+  const auto [min, max] = map.enclosure();
+  for (int z = min.z(); z <= max.z(); ++z) {
+    for (int y = min.y(); y <= max.y(); ++y) {
+      for (int x = min.x(); x <= max.x(); ++x) visit(Index3(x, y, z));
+    }
+  }
+}
+
+std::int64_t differing_evidence(const VoxelMap& a, const VoxelMap& b) {
+  std::int64_t differing = 0;
+  for_each_voxel(a, [&](const Index3& voxel) { differing += a.evidence(voxel) == b.evidence(voxel) ? 0 : 1; });
+  return differing;
+}
+
 std::int64_t differing_voxels(const VoxelMap& a, const VoxelMap& b) {
   std::int64_t differing = 0;
   for (std::size_t word = 0; word < a.layout().words(); ++word) {
@@ -19,6 +35,7 @@ std::int64_t differing_voxels(const VoxelMap& a, const VoxelMap& b) {
         (a.occupied().words[word] ^ b.occupied().words[word]) | (a.empty().words[word] ^ b.empty().words[word]) |
         (a.hidden().words[word] ^ b.hidden().words[word]) | (a.occplane().words[word] ^ b.occplane().words[word]));
   }
+  if (a.rule() == MapRule::evidence) differing += differing_evidence(a, b);
   return differing;
 }
 
@@ -48,7 +65,8 @@ class RandomScenes {
     grid.length = one_of({0.02, 0.025, 0.03125, random.uniform(0.01, 0.04)});
     grid.size = size + 2 * margin;
     grid.min = random.uniform() < 0.5 ? Vec3(-0.5 * grid.length * grid.size.cast<double>()) : Vec3(random.normal3());
-    return {grid, {margin, margin + size - Index3::Ones()}};
+    return {
+        grid, {margin, margin + size - Index3::Ones()}, random.uniform() < 0.5 ? MapRule::paper : MapRule::evidence};
   }
 
   [[nodiscard]] AnalyticScene objects(const Box3& around) {
@@ -107,6 +125,8 @@ TEST(Integrator, DoesToTheLastBitWhatExactRaysDo) {
   int compared_scans = 0;
   int fast_scans = 0;
   int lattice_points = 0;
+  std::int64_t taken_back = 0;
+  std::int64_t contradicted = 0;
   std::array<std::int64_t, 5> labels{};
   for (int scene = 0; scene < 1500; ++scene) {
     VoxelMap fast = scenes.map();
@@ -125,6 +145,8 @@ TEST(Integrator, DoesToTheLastBitWhatExactRaysDo) {
       const IntegrationReport expected = integrate_exactly(exact, sight_lines(image, normals, view, reference));
       ASSERT_EQ(report.points_in_enclosure, expected.points_in_enclosure) << "scene " << scene;
       ASSERT_EQ(report.new_occupied, expected.new_occupied) << "scene " << scene;
+      ASSERT_EQ(report.taken_back, expected.taken_back) << "scene " << scene;
+      taken_back += report.taken_back;
       ASSERT_EQ(differing_voxels(fast, exact), 0) << "scene " << scene;
       ASSERT_NO_FATAL_FAILURE(expect_same_surfaces(fast, exact)) << "scene " << scene;
       ++compared_scans;
@@ -132,18 +154,21 @@ TEST(Integrator, DoesToTheLastBitWhatExactRaysDo) {
       lattice_points += static_cast<int>(report.points_in_enclosure);
     }
     for (const Label label : all_labels) labels.at(static_cast<std::size_t>(label)) += fast.count(label);
+    for_each_voxel(fast, [&](const Index3& voxel) { contradicted += fast.evidence(voxel).contradiction > 0 ? 1 : 0; });
   }
   EXPECT_GT(compared_scans, 3000);
   EXPECT_GT(fast_scans, 1500) << "most scans must take the path under test";
   EXPECT_GT(lattice_points, 100000);
+  EXPECT_GT(taken_back, 100);
+  EXPECT_GT(contradicted, 1500);
   for (const Label label : all_labels) EXPECT_GT(labels.at(static_cast<std::size_t>(label)), 20000) << name(label);
 }
 
 TEST(Integrator, AnyNumberOfThreadsGivesTheSameBits) {
   const AnalyticScene objects{{{Vec3(0.1, 0, 0), 0.3}, {Vec3(-0.3, 0.1, 0.1), 0.15}}, {}};
-  const auto reconstruct = [&](std::size_t threads) {
+  const auto reconstruct = [&](std::size_t threads, MapRule rule) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    VoxelMap map{SceneOptions{}};
+    VoxelMap map{SceneOptions{.rule = rule}};
     Random random(3);
     for (const Vec3& position : {Vec3(2, 0, 0), Vec3(0, 1.5, 1.2), Vec3(-1, -1, -1.2)}) {
       const View view = view_towards(position, Vec3::Zero());
@@ -153,11 +178,13 @@ TEST(Integrator, AnyNumberOfThreadsGivesTheSameBits) {
     }
     return map;
   };
-  const VoxelMap alone = reconstruct(1);
-  const VoxelMap together = reconstruct(4);
-  EXPECT_EQ(differing_voxels(alone, together), 0);
-  expect_same_surfaces(alone, together);
-  EXPECT_GT(alone.count(Label::occupied), 2000);
+  for (const MapRule rule : {MapRule::paper, MapRule::evidence}) {
+    const VoxelMap alone = reconstruct(1, rule);
+    const VoxelMap together = reconstruct(4, rule);
+    EXPECT_EQ(differing_voxels(alone, together), 0);
+    expect_same_surfaces(alone, together);
+    EXPECT_GT(alone.count(Label::occupied), 2000);
+  }
 }
 
 TEST(Integrator, RaysServeCoarseImagesAndCamerasInTheEnclosure) {

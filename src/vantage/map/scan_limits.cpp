@@ -16,22 +16,6 @@ constexpr int cell_offset = 1 << 20;  // makes cells positive, so that truncatio
 
 std::int64_t steps_between(const Index3& a, const Index3& b) { return (a - b).cast<std::int64_t>().cwiseAbs().sum(); }
 
-/// Crossings of lattice planes on a ray up to depth `far`.
-std::int64_t crossings_until(const Grid& grid, const LatticeRay& ray, double far) {
-  std::int64_t crossings = 0;
-  for (int a = 0; a < 3; ++a) {
-    const int step = ray.step_along(a);
-    if (step == 0) continue;
-    const int cell = ray.origin_cell[a];
-    int k = grid.index_of(a, ray.origin[a] + far * ray.direction[a]);
-    if ((k - cell) * step < 0) k = cell;
-    while (k != cell && ray.enter(grid, a, k) > far) k -= step;
-    while (ray.enter(grid, a, k + step) <= far) k += step;
-    crossings += std::abs(k - cell);
-  }
-  return crossings;
-}
-
 /// Reads one row of pixels after the other. The voxels in which rays end come from plain loops over the columns, which
 /// compilers turn into vector code; the few rays that end next to a lattice plane are redone exactly.
 class RowReader {
@@ -41,7 +25,7 @@ class RowReader {
     const Box3 space = map.grid().box(map.enclosure());
     const Vec3 eye = view.position();
     // A ray that meets nothing need not be followed beyond the enclosure.
-    const double beyond = (space.center() - eye).norm() + 0.5 * space.diagonal().norm() + map.grid().length;
+    const double beyond = distance_beyond(map.grid(), map.enclosure(), eye);
     far_limit_cuts_ = image.camera.max_depth < beyond;
     far_ = std::min(image.camera.max_depth, beyond);
     const double largest_coordinate =
@@ -88,9 +72,9 @@ class RowReader {
   }
 
  private:
-  [[nodiscard]] std::int16_t nothing_occluded() const { return static_cast<std::int16_t>(steps_.span + 1); }
+  [[nodiscard]] std::int16_t nothing_occluded() const { return static_cast<std::int16_t>(steps_.endless()); }
   [[nodiscard]] std::int16_t clamped(std::int64_t steps) const {
-    return static_cast<std::int16_t>(std::clamp<std::int64_t>(steps, 0, steps_.span + 1));
+    return static_cast<std::int16_t>(std::clamp<std::int64_t>(steps, 0, steps_.endless()));
   }
   [[nodiscard]] bool is_inside(const Index3& cell) const {
     return (cell.array() >= 0).all() && (cell.array() < map_.layout().size.array()).all();
@@ -102,7 +86,7 @@ class RowReader {
 
   /// What a pixel says whose ray has no end in reach: it empties all of its voxels, or is unknown.
   [[nodiscard]] PixelLimits limits_without_end(float depth) const {
-    return {depth > 0 ? nothing_occluded() : std::int16_t{0}, nothing_occluded()};
+    return {depth > 0 ? nothing_occluded() : PixelLimits::unknown, nothing_occluded()};
   }
 
   /// The columns from the first to the last ray that ends, `last` excluded: at a hit, or at the far limit.
@@ -149,7 +133,7 @@ class RowReader {
     const std::int32_t* const x = cells_[0].data();
     const std::int32_t* const y = cells_[1].data();
     const std::int32_t* const z = cells_[2].data();
-    const int most = steps_.span + 1;
+    const int most = steps_.endless();
     for (std::size_t i = first; i < last; ++i) {
       const bool is_known = depth[i] > 0;
       const bool is_hit = RangeImage::is_hit(depth[i]);
@@ -160,7 +144,7 @@ class RowReader {
       const bool is_point = is_hit & (static_cast<std::uint32_t>(x[i]) < size.x()) &
                             (static_cast<std::uint32_t>(y[i]) < size.y()) &
                             (static_cast<std::uint32_t>(z[i]) < size.z());
-      limits[i] = {static_cast<std::int16_t>(is_known ? emptied : 0),
+      limits[i] = {static_cast<std::int16_t>(is_known ? emptied : PixelLimits::unknown),
                    static_cast<std::int16_t>(is_point ? steps : most)};
       needs_care_[i] = static_cast<std::uint8_t>(is_known & (is_point | (certainty_[i] < least_certainty_)));
     }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "vantage/map/evidence.hpp"
 #include "vantage/map/lattice_projection.hpp"
 #include "vantage/map/voxel_map.hpp"
 #include "vantage/sensor/range_image.hpp"
@@ -20,6 +21,8 @@ struct StepCounts {
   int span = 0;  // the largest count of any voxel of the enclosure
 
   static constexpr int largest_span = 32000;
+  /// More than any voxel has, and than any voxel that is looked through by the last rays that matter.
+  [[nodiscard]] int endless() const { return span + 1 + steps_looked_through; }
 
   StepCounts(const Index3& enclosure_size, const Index3& local_eye);
   [[nodiscard]] int of(const Index3& local) const { return (local - eye).cwiseAbs().sum() - first; }
@@ -28,9 +31,12 @@ struct StepCounts {
 };
 
 /// What a pixel says about the voxels that its ray passes: those with steps < `emptied_below` become empty, those with
-/// steps > `occluded_above` become occluded. Both are clamped to 0 .. span+1; 0 empties nothing, span+1 occludes
+/// steps > `occluded_above` become occluded, those with steps + steps_looked_through < `emptied_below` are looked
+/// through. Both are clamped to 0 .. endless; 0 empties nothing, endless occludes nothing. An unknown pixel says
 /// nothing.
 struct PixelLimits {
+  static constexpr std::int16_t unknown = -1;
+
   std::int16_t emptied_below;
   std::int16_t occluded_above;
 };

@@ -27,7 +27,8 @@ Vec3 SurfaceVoxel::normal() const {
   return length > 1e-12 ? Vec3(normal_sum / length) : Vec3(Vec3::Zero());
 }
 
-VoxelMap::VoxelMap(const Grid& grid, const IndexBox& enclosure) : grid_(grid), enclosure_(enclosure) {
+VoxelMap::VoxelMap(const Grid& grid, const IndexBox& enclosure, MapRule rule)
+    : grid_(grid), enclosure_(enclosure), rule_(rule) {
   grid.validate();
   require((enclosure.min.array() <= enclosure.max.array()).all() && grid.contains(enclosure.min) &&
               grid.contains(enclosure.max),
@@ -41,6 +42,10 @@ VoxelMap::VoxelMap(const Grid& grid, const IndexBox& enclosure) : grid_(grid), e
   layout_.words_per_row = (layout_.size.x() + 63) / 64;
   for (BitPlane* plane : {&occupied_, &empty_, &hidden_, &occplane_}) plane->words.assign(layout_.words(), 0);
   block_of_word_.assign(layout_.words(), -1);
+  if (rule_ == MapRule::evidence) {
+    touched_.words.assign(layout_.words(), 0);
+    evidence_.resize(static_cast<std::size_t>(sides.prod()));
+  }
 }
 
 Label VoxelMap::label(const Index3& index) const {
@@ -80,6 +85,46 @@ bool VoxelMap::add_point(const Index3& index, const Vec3& normal_in_world, doubl
   const auto [surface, is_new] = occupy(index);
   if (!normal_in_world.isZero(0)) surface.add(normal_in_world, quality);
   return is_new;
+}
+
+VoxelEvidence VoxelMap::evidence(const Index3& index) const {
+  if (evidence_.empty() || !enclosure_.contains(index)) return {};
+  return evidence_[place(local(index))];
+}
+
+VoxelMap::Supported VoxelMap::support(const Index3& index, int amount) {
+  const Index3 at = local(index);
+  const std::size_t word = layout_.word(at);
+  const std::uint64_t bit = BitLayout::bit(at);
+  VoxelEvidence& counted = counts(at);
+  // Scans before the first point count as one that looked through, if any emptied the voxel.
+  if ((touched_.words[word] & bit) == 0 && (empty_.words[word] & bit) != 0) counted.add_contradiction();
+  touched_.words[word] |= bit;
+  counted.add_support(amount);
+  if (!counted.is_occupied()) return {nullptr, false};
+  const auto [surface, is_new] = occupy(index);
+  return {&surface, is_new};
+}
+
+int VoxelMap::contradict_word(std::size_t word, std::uint64_t looked_through) {
+  int emptied = 0;
+  const auto words_per_row = static_cast<std::size_t>(layout_.words_per_row);
+  const auto columns = static_cast<std::size_t>(layout_.size.x());
+  const std::size_t first = word / words_per_row * columns + word % words_per_row * 64;
+  for (std::uint64_t bits = looked_through & touched_.words[word]; bits != 0; bits &= bits - 1) {
+    VoxelEvidence& counted = evidence_[first + static_cast<std::size_t>(std::countr_zero(bits))];
+    counted.add_contradiction();
+    const std::uint64_t bit = bits & (~bits + 1);
+    if ((occupied_.words[word] & bit) == 0 || counted.is_occupied()) continue;
+    occupied_.words[word] &= ~bit;
+    empty_.words[word] |= bit;
+    ++emptied;
+  }
+  return emptied;
+}
+
+void VoxelMap::hide_if_unmarked(const Index3& index) {
+  if (label(index) == Label::unmarked) set_label(index, Label::occluded);
 }
 
 SurfaceVoxel& VoxelMap::surface_slot(const Index3& local_index) {

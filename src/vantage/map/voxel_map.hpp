@@ -60,9 +60,10 @@ struct BitLayout {
 class VoxelMap {
  public:
   /// Throws InputError where the enclosure does not lie in the grid or does not fit in memory.
-  VoxelMap(const Grid& grid, const IndexBox& enclosure);
+  VoxelMap(const Grid& grid, const IndexBox& enclosure, MapRule rule = MapRule::paper);
   /// Throws InputError naming the option.
-  explicit VoxelMap(const SceneOptions& options) : VoxelMap(validated(options).grid(), options.enclosure()) {}
+  explicit VoxelMap(const SceneOptions& options)
+      : VoxelMap(validated(options).grid(), options.enclosure(), options.rule) {}
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
   [[nodiscard]] const IndexBox& enclosure() const { return enclosure_; }
@@ -85,6 +86,10 @@ class VoxelMap {
   /// Marks the voxel occupied and adds a measured point to it. A zero normal adds nothing to the normal and quality.
   /// Returns true where the voxel was not occupied before.
   bool add_point(const Index3& index, const Vec3& normal_in_world, double quality);
+
+  [[nodiscard]] MapRule rule() const { return rule_; }
+  /// Nothing counted outside of the enclosure and by the paper's rule.
+  [[nodiscard]] VoxelEvidence evidence(const Index3& index) const;
 
   /// nullptr unless the voxel is occupied.
   [[nodiscard]] const SurfaceVoxel* surface(const Index3& index) const;
@@ -113,6 +118,23 @@ class VoxelMap {
   /// time.
   void carve_word(std::size_t word, std::uint64_t emptied, std::uint64_t occluded);
 
+  // The evidence, for the fast paths; by the rule `evidence` only.
+  /// Voxels that a point ever fell into.
+  [[nodiscard]] const BitPlane& touched() const { return touched_; }
+  /// Counts points that fell into a voxel: `amount` is what they add to its support. Returns its surface where the
+  /// voxel is occupied then, valid until the next voxel becomes occupied, and whether it was not before.
+  struct Supported {
+    SurfaceVoxel* surface;
+    bool is_new;
+  };
+  Supported support(const Index3& index, int amount);
+  /// Counts a scan that looked through these touched voxels of a word; those that are no longer occupied by it become
+  /// empty. Returns how many do. Safe for different words at the same time.
+  int contradict_word(std::size_t word, std::uint64_t looked_through);
+  /// Unmarked voxels that a point fell into and that are not occupied become occluded: something may be there. The
+  /// index is the scene's.
+  void hide_if_unmarked(const Index3& index);
+
  private:
   [[nodiscard]] static const SceneOptions& validated(const SceneOptions& options) {
     options.validate();
@@ -125,10 +147,20 @@ class VoxelMap {
   [[nodiscard]] Index3 local(const Index3& index) const { return index - enclosure_.min; }
   [[nodiscard]] SurfaceVoxel& surface_slot(const Index3& local_index);
 
+  [[nodiscard]] VoxelEvidence& counts(const Index3& local_index) { return evidence_[place(local_index)]; }
+  [[nodiscard]] std::size_t place(const Index3& local_index) const {
+    const auto size = layout_.size.cast<std::size_t>().eval();
+    const auto at = local_index.cast<std::size_t>().eval();
+    return (at.z() * size.y() + at.y()) * size.x() + at.x();
+  }
+
   Grid grid_;
   IndexBox enclosure_;
+  MapRule rule_;
   BitLayout layout_;
   BitPlane occupied_, empty_, hidden_, occplane_;
+  BitPlane touched_;                     // empty by the paper's rule, as are the counts
+  std::vector<VoxelEvidence> evidence_;  // of all voxels, x fastest
   // Surfaces are rare: each word of the planes that holds an occupied voxel owns a block of 64 slots.
   using SurfaceBlock = std::array<std::int32_t, 64>;
   std::vector<std::int32_t> block_of_word_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <compare>
+#include <cstdint>
 #include <limits>
 
 #include "vantage/map/grid.hpp"
@@ -110,6 +111,12 @@ void visit_voxels(const Grid& grid, const IndexBox& box, const LatticeRay& ray, 
 
 /// The tie rule in closed form for one voxel: does the ray pass it between `near` and `far`? Agrees with visit_voxels.
 [[nodiscard]] bool passes_voxel(const Grid& grid, const LatticeRay& ray, const Index3& index, double near, double far);
+
+/// A distance from `eye` at which every ray has left the box, and has taken more than steps_looked_through steps since.
+[[nodiscard]] double distance_beyond(const Grid& grid, const IndexBox& box, const Vec3& eye);
+
+/// Crossings of lattice planes on a ray up to `far`: the steps from the voxel of its origin to the one that it ends in.
+[[nodiscard]] std::int64_t crossings_until(const Grid& grid, const LatticeRay& ray, double far);
 
 /// Bresenham's line along its longest axis; see visit_bresenham.
 template <int main, class Visit>

@@ -25,6 +25,7 @@ Box3 box_around(const std::vector<PendingScan>& scans) {
 }  // namespace
 
 void ScanPlanOptions::validate() const {
+  SensorOptions::validate();
   if (box) {
     require((box->tail<3>().array() > 0).all(), "box = ", box->transpose(),
             ": the sizes (last three) must be positive");
@@ -64,7 +65,9 @@ ScanScene scene_in(const Box3& box, const ScanPlanOptions& options) {
           " m does not fit in memory: use longer voxels");
   fitted.scene.enclosure_size = voxels.array().ceil().matrix().cast<int>().cwiseMax(1);
   fitted.scene.scene_size = fitted.scene.enclosure_size;
+  fitted.scene.rule = options.map;
   fitted.scene.validate();
+  fitted.sensor = options;
 
   const Vec3 around = Vec3::Constant(options.surroundings * box.sizes().maxCoeff());
   fitted.region = Box3(box.min() - around, box.max() + around);

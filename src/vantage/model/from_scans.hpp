@@ -4,11 +4,12 @@
 #include <string>
 
 #include "vantage/model/reconstruction.hpp"
+#include "vantage/model/sensor_options.hpp"
 
 namespace vantage {
 
 /// Planning on scans of a real sensor: where the object is and how finely to look.
-struct ScanPlanOptions {
+struct ScanPlanOptions : SensorOptions {
   std::optional<Eigen::Matrix<double, 6, 1>> box;  // cx cy cz sx sy sz, metres; around all points if not given
   std::optional<double> voxel;                     // metres; the longest side of the box over 55 if not given
   std::optional<double> radius;      // of the view sphere, metres; the sensor's median distance if not given
@@ -33,6 +34,7 @@ void describe(ScanPlanOptions& o, Field&& field) {
   field("pose-angle-error", o.pose_angle_error, "degrees", "how far turned the poses may be at most");
   field("surroundings", o.surroundings, "box sides",
         "how far around the box things stand still, so that registration may use them");
+  describe(static_cast<SensorOptions&>(o), field);
 }
 
 /// A scan that is still on disk, with the pose that the robot gave it.
@@ -47,6 +49,7 @@ struct ScanScene {
   SceneOptions scene;
   double radius = 1;
   Box3 region;  // what registration uses: the box and its surroundings
+  SensorOptions sensor;
 
   [[nodiscard]] Candidates candidates(int views) const { return view_sphere(views, radius, scene.center); }
 };

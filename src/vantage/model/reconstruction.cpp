@@ -53,7 +53,9 @@ ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Re
 
   start = Clock::now();
   if (located.accepted) {
-    record.new_occupied = integrate(model.map, scan, located.view, quality).new_occupied;
+    const IntegrationReport report = integrate(model.map, scan, located.view, quality);
+    record.new_occupied = report.new_occupied;
+    record.taken_back = report.taken_back;
     merge(model.surface, scan, points, located.view);
   }
   record.labels = label_counts(model.map);

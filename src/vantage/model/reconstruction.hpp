@@ -9,6 +9,7 @@
 #include "vantage/planning/planner.hpp"
 #include "vantage/robot/error_learner.hpp"
 #include "vantage/robot/robot.hpp"
+#include "vantage/sensor/sensor_model.hpp"
 
 namespace vantage {
 
@@ -17,6 +18,7 @@ struct ObjectModel {
   VoxelMap map;
   ModelSurface surface;  // the fused cloud of all merged scans
   std::vector<ScanRecord> scans;
+  SensorModel sensor;  // how the sensor errs, as far as that is known
 
   /// `point_spacing`: metres between the points that the fused cloud keeps.
   ObjectModel(const SceneOptions& scene, double point_spacing) : map(scene), surface(point_spacing) {}

@@ -40,11 +40,15 @@ std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const 
 }
 
 ScanModel::ScanModel(const ScanScene& scene)
-    : model_(scene.scene, scene.scene.voxel_length / 4), center_(scene.scene.center) {}
+    : model_(scene.scene, scene.scene.voxel_length / 4), center_(scene.scene.center), cleaner_(scene.sensor) {}
 
-const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& scan, const View& believed,
+const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& measured, const View& believed,
                                  Registrar& registrar) {
+  const ScanCleaner::Result cleaned = cleaner_.clean(measured);
+  const Scan& scan = cleaned.scan ? *cleaned.scan : measured;
+  model_.sensor = cleaner_.sensor().value_or(SensorModel());
   ScanRecord record = update(model_, scan, believed, registrar);
+  record.flying = cleaned.flying;
   record.candidate = origin.candidate;
   record.commanded = origin.commanded.value_or(believed);
   record.reason = origin.name;

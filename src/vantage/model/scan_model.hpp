@@ -6,6 +6,7 @@
 #include <string>
 
 #include "vantage/model/from_scans.hpp"
+#include "vantage/model/scan_cleaner.hpp"
 #include "vantage/planning/planner.hpp"
 #include "vantage/robot/error_learner.hpp"
 
@@ -29,13 +30,15 @@ class ScanModel {
   /// Learns how the robot errs from every merged scan whose commanded view is known; none by default.
   std::optional<ErrorLearner> learner;
 
-  /// Registers the scan, merges it where that succeeds, and notes it.
-  const ScanRecord& add(const ScanOrigin& origin, const Scan& scan, const View& believed, Registrar& registrar);
+  /// Takes out flying pixels, registers the scan, merges it where that succeeds, and notes it.
+  const ScanRecord& add(const ScanOrigin& origin, const Scan& measured, const View& believed, Registrar& registrar);
 
   [[nodiscard]] const ObjectModel& model() const { return model_; }
   /// Median distance of the sensor from the middle of the scene at the scans that were merged, metres; 0 before the
   /// first. One with a wrong pose hardly moves it.
   [[nodiscard]] double sensor_distance() const { return typical_distance(distances_); }
+  /// Whether the options say how the sensor errs; else model().sensor is an estimate from the scans.
+  [[nodiscard]] bool sensor_is_given() const { return cleaner_.is_given(); }
   /// Where the sensor is: at its last scan, in the middle of its sight lines' origins.
   [[nodiscard]] const View& current() const { return current_; }
 
@@ -43,6 +46,7 @@ class ScanModel {
   ObjectModel model_;
   Vec3 center_;                    // of the scene
   std::vector<double> distances_;  // of the sensor from there, metres, at merged scans
+  ScanCleaner cleaner_;
   View current_;
 };
 

@@ -33,6 +33,8 @@ struct ScanRecord {
 
   LabelCounts labels;
   std::int64_t new_occupied = 0;
+  std::int64_t taken_back = 0;  // occupied voxels that this scan looked through, so that they are empty now
+  std::int64_t flying = 0;      // pixels taken out as flying
   double mean_quality = 0;
   double distance = 0;                           // metres travelled so far, without the way to the first view
   std::optional<double> coverage, coverage_all;  // known in simulation only

@@ -81,7 +81,7 @@ class OptionCollector {
       return OptionField::Kind::flag;
     } else if constexpr (std::is_arithmetic_v<T>) {
       return OptionField::Kind::number;
-    } else if constexpr (requires { T::RowsAtCompileTime; }) {
+    } else if constexpr (std::is_same_v<T, DepthDeviation> || requires { T::RowsAtCompileTime; }) {
       return OptionField::Kind::list;
     } else {
       return OptionField::Kind::text;

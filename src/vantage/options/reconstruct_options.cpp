@@ -85,8 +85,10 @@ std::vector<std::string> planning_option_names() {
 
 void ReconstructOptions::validate() const {
   require(!size || (*size > 0 && std::isfinite(*size)), "size = ", size.value_or(0), " m: must be positive");
-  require((depth_noise.array() >= 0).all() && depth_noise.allFinite(), "depth-noise = ", depth_noise.transpose(),
-          ": must not be negative");
+  depth_noise.validate();
+  require(!mixed_pixels || (*mixed_pixels >= 0 && *mixed_pixels <= 1), "mixed-pixels = ", mixed_pixels.value_or(0),
+          ": must be a share from 0 to 1");
+  sensor_model().validate();
   require_one_of("quality", quality, {"axis", "ray"});
   require_one_of("registration", registration, {"truth", "none", "icp"});
   validate_errors(center);
@@ -99,7 +101,7 @@ void ReconstructOptions::validate() const {
   budget().validate();
 }
 
-SceneOptions ReconstructOptions::scene_options() const { return {center, voxel, scene, enclosure}; }
+SceneOptions ReconstructOptions::scene_options() const { return {center, voxel, scene, enclosure, map}; }
 
 RangeCamera ReconstructOptions::range_camera() const {
   RangeCamera result = camera_from_text(camera);
@@ -107,6 +109,13 @@ RangeCamera ReconstructOptions::range_camera() const {
   result.max_depth = depth_range[1];
   if (max_incidence) result.max_incidence = radians(*max_incidence);
   result.validate();
+  return result;
+}
+
+SensorModel ReconstructOptions::sensor_model() const {
+  SensorModel result = sensor_by_name(sensor);
+  if (!depth_noise.is_none()) result = with_noise(result, depth_noise);
+  if (mixed_pixels) result.mixed = *mixed_pixels;
   return result;
 }
 

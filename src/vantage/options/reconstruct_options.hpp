@@ -6,6 +6,7 @@
 
 #include "vantage/files/option_text.hpp"
 #include "vantage/model/reconstruction.hpp"
+#include "vantage/model/sensor_options.hpp"
 #include "vantage/options/error_options.hpp"
 #include "vantage/planning/planner.hpp"
 
@@ -26,7 +27,11 @@ struct ReconstructOptions : ErrorOptions {
   std::string camera = "45x45:320x320";
   Eigen::Vector2d depth_range{0, 4.5};
   std::optional<double> max_incidence;
-  Eigen::Vector2d depth_noise{0, 0};
+  std::string sensor = "ideal";
+  DepthDeviation depth_noise;
+  std::optional<double> mixed_pixels;
+  FlyingPixelRule flying_pixels = FlyingPixelRule::keep;
+  MapRule map = MapRule::paper;
   std::string quality = "axis";
 
   std::string candidates = "sphere:80:2";
@@ -63,6 +68,8 @@ struct ReconstructOptions : ErrorOptions {
 
   [[nodiscard]] SceneOptions scene_options() const;
   [[nodiscard]] RangeCamera range_camera() const;
+  /// How the sensor errs.
+  [[nodiscard]] SensorModel sensor_model() const;
   [[nodiscard]] PlannerOptions planner_options() const;
   [[nodiscard]] ReachOptions reach_options() const;
   /// What distances are counted in: metres, or radians where the path of an arm or a turntable is asked for.
@@ -92,7 +99,14 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("depth-range", o.depth_range, "m", "nearest and farthest depth along the axis");
   field("max-incidence", o.max_incidence, "degrees",
         "largest angle between a surface's normal and the way back to the sensor; unlimited if not given");
-  field("depth-noise", o.depth_noise, "m, 1/m", "A,B: standard deviation of a depth z is A + B z^2");
+  field("sensor", o.sensor, "", "how the sensor errs: " + names_of_sensors());
+  field("depth-noise", o.depth_noise, "m, 1/m, m",
+        "A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence); where not 0, instead of the "
+        "sensor's");
+  field("mixed-pixels", o.mixed_pixels, "",
+        "share of the pixels at depth edges that measure something in between; the sensor's if not given");
+  field("flying-pixels", o.flying_pixels, "", "pixels that no surface around them explains: remove or keep");
+  field("map", o.map, "", "how voxels become occupied: paper (by a point, for ever) or evidence");
   field("quality", o.quality, "", "what a point's quality is measured against: axis or ray");
   field("candidates", o.candidates, "", "candidate views: sphere:N:RADIUS or cube:N:SIDE:INNER:OUTER (metres)");
   field("body-radius", o.body_radius, "m", "radius of the robot's body around the sensor");

@@ -16,6 +16,7 @@
 #include "vantage/files/text_reader.hpp"
 #include "vantage/formats/depth_image.hpp"
 #include "vantage/sensor/range_camera.hpp"
+#include "vantage/sensor/sensor_model.hpp"
 
 namespace vantage {
 
@@ -124,6 +125,22 @@ struct TextValue<Resolution> {
     return Resolution{*columns, *rows};
   }
   static std::string expected() { return "COLUMNSxROWS, both positive"; }
+};
+
+/// `A,B`, or `A,B,C` where there is a third part.
+template <>
+struct TextValue<DepthDeviation> {
+  static std::string print(const DepthDeviation& value) {
+    using Two = Eigen::Vector2d;
+    return value.c == 0 ? TextValue<Two>::print({value.a, value.b})
+                        : TextValue<Vec3>::print({value.a, value.b, value.c});
+  }
+  static std::optional<DepthDeviation> parse(std::string_view text) {
+    if (const auto two = TextValue<Eigen::Vector2d>::parse(text)) return DepthDeviation{two->x(), two->y()};
+    const auto three = TextValue<Vec3>::parse(text);
+    return three ? std::optional(DepthDeviation{three->x(), three->y(), three->z()}) : std::nullopt;
+  }
+  static std::string expected() { return "2 or 3 numbers separated by commas"; }
 };
 
 template <NamedEnum E>

@@ -92,7 +92,15 @@ Json scan_json(const ScanRecord& record) {
   json["learned_sigma"] = learned(0, 1);
   json["learned_angle"] = learned(3, radians(1));
   json["merged"] = record.merged;
+  json["flying_pixels"] = record.flying;
+  json["taken_back"] = record.taken_back;
   return json;
+}
+
+Json sensor_json(const SensorModel& sensor) {
+  return {{"constant", sensor.constant},   {"linear", sensor.linear},
+          {"quadratic", sensor.quadratic}, {"incidence", sensor.incidence},
+          {"quantum", sensor.quantum},     {"disparity_quantum", sensor.disparity_quantum}};
 }
 
 Json summary_json(const ObjectModel& model, const RunSummary& summary) {
@@ -113,6 +121,7 @@ Json summary_json(const ObjectModel& model, const RunSummary& summary) {
   json["completeness_all"] = or_null(summary.completeness_all);
   json["stop_reason"] = summary.stop_reason;
   json["seed"] = summary.seed;
+  json["sensor"] = sensor_json(model.sensor);
   json["learned_error"] = model.scans.empty() || !model.scans.back().learned_error
                               ? Json(nullptr)
                               : pose_error_json(*model.scans.back().learned_error);

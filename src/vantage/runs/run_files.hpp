@@ -23,6 +23,10 @@ struct RunSummary {
 /// Mean and covariance of x, y, z, pan, tilt, roll; metres and degrees.
 [[nodiscard]] nlohmann::ordered_json pose_error_json(const PoseError& error);
 
+/// The deviation of a depth z under the incidence t, constant + linear z + quadratic z^2 + incidence tan^2 t, and the
+/// steps between depths; metres.
+[[nodiscard]] nlohmann::ordered_json sensor_json(const SensorModel& sensor);
+
 /// One scan as the keys of spec section 10; absent values are null. Poses are arrays of 7 numbers.
 [[nodiscard]] nlohmann::ordered_json scan_json(const ScanRecord& record);
 

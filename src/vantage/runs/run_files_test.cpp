@@ -48,7 +48,7 @@ TEST(RunFiles, RowsOfViewsHaveTheColumnsOfTheirHeader) {
       "registered_z,registered_qx,registered_qy,registered_qz,registered_qw,n_oc,n_op,n_um,f_area,f_navigation,"
       "f_quality,f_occlusion,utility,occupied,occplane,unmarked,new_occupied,mean_quality,distance,coverage,"
       "coverage_all,overlap,residual,verdict,reason,expected_utility,overlap_probability,learned_sigma,learned_angle,"
-      "merged");
+      "merged,flying_pixels,taken_back");
   EXPECT_EQ(fields(first), fields(header));
   EXPECT_EQ(fields(second), fields(header));
   EXPECT_NE(second.find("\"because of \"\"this\"\", and that\""), std::string::npos);

@@ -60,6 +60,8 @@ TEST(FlyingPixels, FewFalsePositivesOnPlanesAndBalls) {
     flagged += count(flying_pixels(image, sensor_with({noise, 0})));
     hits += std::count_if(image.depth.begin(), image.depth.end(), RangeImage::is_hit);
   }
+  RecordProperty("flagged", std::to_string(flagged));
+  RecordProperty("hits", std::to_string(hits));
   EXPECT_GT(hits, 500000);
   // At a corner two of three lines must fail: 1.5 times the rate of one comparison, elsewhere more of them. The last
   // 0.7 % of what is seen of a ball rises by more than a jump.

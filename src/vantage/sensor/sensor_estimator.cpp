@@ -9,11 +9,13 @@ namespace {
 
 constexpr int half = SensorEstimator::side / 2;
 constexpr double pixels = SensorEstimator::side * SensorEstimator::side;
-constexpr double degrees_of_freedom = pixels - 3;
-constexpr double share = 0.25;
-/// The 25 % quantile of chi-square with 46 degrees of freedom over their number (Wilson and Hilferty's cube).
+constexpr double degrees_of_freedom = pixels - 6;
+constexpr double share = 0.1;
+constexpr double mean_square = half * (half + 1) / 3.0;  // of a column's offset from the centre: 4
+static_assert(SensorEstimator::side == 7, "the sums of squares in fit() are those of 7x7 windows");
+/// The 10 % quantile of chi-square with 43 degrees of freedom over their number (Wilson and Hilferty's cube).
 const double quantile_of_mean_square =
-    std::pow(1 - 2 / (9 * degrees_of_freedom) - 0.6744897501960817 * std::sqrt(2 / (9 * degrees_of_freedom)), 3);
+    std::pow(1 - 2 / (9 * degrees_of_freedom) - 1.2815515655446004 * std::sqrt(2 / (9 * degrees_of_freedom)), 3);
 
 // Logarithmic bins: depths from 5 cm in steps of 12 %, deviations from a micrometre in steps of 3 %.
 constexpr double least_depth = 0.05, depth_ratio = 1.12;
@@ -35,6 +37,7 @@ std::optional<Window> fit(const RangeImage& image, int column, int row) {
   if (!RangeImage::is_hit(image.at(column, row))) return std::nullopt;
   // 1/z less that of the centre, so that nothing cancels.
   double sum = 0, squares = 0, along_columns = 0, along_rows = 0;
+  double bent_columns = 0, bent_rows = 0, twisted = 0;
   for (int v = -half; v <= half; ++v) {
     for (int u = -half; u <= half; ++u) {
       const float depth = image.at(column + u, row + v);
@@ -45,10 +48,18 @@ std::optional<Window> fit(const RangeImage& image, int column, int row) {
       squares += w * w;
       along_columns += u * w;
       along_rows += v * w;
+      bent_columns += (u * u - mean_square) * w;
+      bent_rows += (v * v - mean_square) * w;
+      twisted += u * v * w;
     }
   }
-  constexpr double moment = pixels * half * (half + 1) / 3.0;  // sum of u^2 over the window
-  const double explained = sum * sum / pixels + (along_columns * along_columns + along_rows * along_rows) / moment;
+  // The functions 1, u, v, u^2 - 4, v^2 - 4 and u v are orthogonal over the window; these are their squares' sums.
+  constexpr double moment = pixels * mean_square;
+  constexpr double bent_moment = 588;
+  constexpr double twisted_moment = pixels * mean_square * mean_square;
+  const double explained = sum * sum / pixels + (along_columns * along_columns + along_rows * along_rows) / moment +
+                           (bent_columns * bent_columns + bent_rows * bent_rows) / bent_moment +
+                           twisted * twisted / twisted_moment;
   const double residual = std::max(0.0, squares - explained) / degrees_of_freedom;
   return Window{center, std::sqrt(residual) * center * center};
 }

@@ -11,10 +11,10 @@
 
 namespace vantage {
 
-/// Estimates how noisy a sensor is from its own images: the residuals of planes (affine in 1/z) fitted to windows of
-/// 7x7 hits. Where at least a quarter of the windows shows a plane, the quarter with the least residuals says how noisy
-/// all are: the 25 % quantile, set off against that of the chi-square distribution. Keeps counts only, so that adding
-/// images one by one gives the same as adding them all.
+/// Estimates how noisy a sensor is from its own images: the residuals of paraboloids (quadratic in 1/z) fitted to
+/// windows of 7x7 hits. Where at least a tenth of the windows shows a smooth surface, the tenth with the least
+/// residuals says how noisy all are: the 10 % quantile, set off against that of the chi-square distribution. Keeps
+/// counts only, so that adding images one by one gives the same as adding them all.
 class SensorEstimator {
  public:
   void add(const RangeImage& image);

@@ -9,6 +9,8 @@
 namespace vantage {
 namespace {
 
+constexpr double largest_error = 1e6;  // metres, as for the scene
+
 constexpr double right_angle = std::numbers::pi / 2;
 
 /// Nguyen, Izadi and Lovell (3DIMPVT 2012): 1.2 mm + 1.9 mm/m^2 (z - 0.4 m)^2, growing as 0.1 mm t^2/(90 deg - t)^2
@@ -114,7 +116,8 @@ bool SensorModel::is_ideal() const { return *this == SensorModel{}; }
 
 void SensorModel::validate() const {
   const auto not_negative = [](double value, const char* field, const char* unit) {
-    require(std::isfinite(value) && value >= 0, "sensor: ", field, " = ", value, unit, ": must not be negative");
+    require(value >= 0 && value <= largest_error, "sensor: ", field, " = ", value, unit, ": must be from 0 to ",
+            largest_error);
   };
   const auto share = [](double value, const char* field) {
     require(value >= 0 && value <= 1, "sensor: ", field, " = ", value, ": must be a share from 0 to 1");
@@ -139,7 +142,8 @@ void SensorModel::validate() const {
 
 void DepthDeviation::validate() const {
   for (const double part : {a, b, c}) {
-    require(std::isfinite(part) && part >= 0, "depth-noise = ", a, ",", b, ",", c, ": must not be negative");
+    require(part >= 0 && part <= largest_error, "depth-noise = ", a, ",", b, ",", c, ": must be from 0 to ",
+            largest_error);
   }
 }
 
@@ -159,13 +163,17 @@ std::vector<std::string> sensor_names() {
   return names;
 }
 
-SensorModel sensor_by_name(std::string_view name) {
+std::string names_of_sensors() {
   std::string list;
+  for (const auto& [name, make] : presets) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
+}
+
+SensorModel sensor_by_name(std::string_view name) {
   for (const auto& [preset, make] : presets) {
     if (name == preset) return make();
-    list += (list.empty() ? "" : ", ") + std::string(preset);
   }
-  throw InputError(concat("sensor = '", name, "': must be one of: ", list));
+  throw InputError(concat("sensor = '", name, "': must be one of: ", names_of_sensors()));
 }
 
 std::string description(const SensorModel& sensor) {

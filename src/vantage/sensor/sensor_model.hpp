@@ -80,6 +80,8 @@ struct DepthDeviation {
 /// Presets: ideal, primesense, realsense-d435, realsense-l515, azure-kinect, structured-light. docs/sensors.md says
 /// where their figures come from.
 [[nodiscard]] std::vector<std::string> sensor_names();
+/// The same, separated by commas.
+[[nodiscard]] std::string names_of_sensors();
 /// Throws InputError that lists the names where there is no such preset.
 [[nodiscard]] SensorModel sensor_by_name(std::string_view name);
 /// What the model says, for people: "1.5 mm - 1.5 mm/m z + 1.9 mm/m2 z^2, ...".

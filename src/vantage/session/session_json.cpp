@@ -26,6 +26,7 @@ Json status_json(const SessionStatus& status) {
   json["mean_quality"] = state.map.mean_quality();
   json["distance"] = state.scans.empty() ? 0.0 : state.scans.back().distance;
   json["radius"] = state.radius;
+  json["sensor"] = sensor_json(state.sensor);
   json["learned_error"] = learned_json(state.learner);
   json["skipped"] = Json::array();
   for (const auto& [candidate, reason] : status.skipped) {

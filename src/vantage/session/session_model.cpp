@@ -70,6 +70,7 @@ SessionState SessionModel::state() const {
           .camera = camera_,
           .set_aside = set_aside_,
           .box_was_seen = box_was_seen_,
+          .sensor = model().sensor,
           .learner = scans_.learner};
 }
 

@@ -16,6 +16,7 @@ struct SessionState {
   std::optional<RangeCamera> camera;     // of the first depth image
   std::map<int, std::string> set_aside;  // candidates whose scans failed since the map changed last, with the reason
   bool box_was_seen = false;             // some merged scan has a point in the box
+  SensorModel sensor;                    // how the sensor errs, as far as that is known
   std::optional<ErrorLearner> learner;   // where the options ask for it: what the robot's errors have taught
 };
 

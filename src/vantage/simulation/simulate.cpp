@@ -29,7 +29,7 @@ RegistrationOptions registration_options(const ReconstructOptions& options, cons
     result.orientation_error = std::max(result.orientation_error, angle);
     result.search_radius = 3 * std::hypot(deviations.head<3>().maxCoeff(), angle * distance);
   }
-  if (!options.depth_noise.isZero(0)) {
+  if (!options.sensor_model().is_ideal()) {
     // As for real frames, which are noisy too: the robot's word decides where noise leaves a direction weakly held.
     result.trust = trust_in_robots;
     result.trust_at_last = 0;
@@ -52,7 +52,8 @@ std::unique_ptr<Registrar> make_registrar(const ReconstructOptions& options, con
 SimulatedRobotOptions simulated_robot_options(const ReconstructOptions& options) {
   return {.error = options.robot_error(options.center),
           .first_pose_exact = options.registration == "icp",
-          .depth_noise = {.a = options.depth_noise.x(), .b = options.depth_noise.y()}};
+          .sensor = options.sensor_model(),
+          .flying_pixels = options.flying_pixels};
 }
 
 SimulatedObject::SimulatedObject(const TriangleMesh& mesh, double size, const ReconstructOptions& options)
@@ -68,6 +69,7 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   require(!options.robot || options.robot_model, "robot = '", options.robot.value_or(""),
           "': the file has not been read; call load_robot first");
   SimulatedRun run{ObjectModel(options.scene_options(), options.point_spacing()), {}};
+  run.model.sensor = options.sensor_model();
   Planner planner(options.candidate_views(), options.range_camera(), options.planner_options(),
                   utility ? *utility : utility_by_name(options.utility));
   const ReachOptions reach = options.planner_options().reach;

@@ -1,6 +1,7 @@
 #include "vantage/simulation/simulated_robot.hpp"
 
 #include "vantage/core/error.hpp"
+#include "vantage/sensor/flying_pixels.hpp"
 
 namespace vantage {
 namespace {
@@ -27,7 +28,7 @@ View perturbed(const View& commanded, const PoseError& error, Random& random) {
   return displaced(commanded, drawn);
 }
 
-void SimulatedRobotOptions::validate() const { depth_noise.validate(); }
+void SimulatedRobotOptions::validate() const { sensor.validate(); }
 
 SimulatedRobot::SimulatedRobot(const RangeScanner& scanner, const RangeCamera& camera,
                                const SimulatedRobotOptions& options, std::uint64_t seed,
@@ -61,7 +62,9 @@ bool SimulatedRobot::move_to(const View& view) {
 RangeImage SimulatedRobot::take_range_image() {
   require(moves_ > 0, "simulated robot: move_to a view before taking a range image");
   Random random = noise_stream(seed_, moves_);
-  return noisy(scanner_.scan(camera_, true_), options_.depth_noise, random);
+  RangeImage image = noisy(scanner_.scan(camera_, true_), options_.sensor, random);
+  if (options_.flying_pixels == FlyingPixelRule::keep) return image;
+  return without_flying_pixels(std::move(image), options_.sensor).image;
 }
 
 }  // namespace vantage

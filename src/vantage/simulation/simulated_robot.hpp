@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "vantage/core/random.hpp"
+#include "vantage/model/sensor_options.hpp"
 #include "vantage/robot/error_model.hpp"
 #include "vantage/robot/robot.hpp"
 #include "vantage/simulation/depth_noise.hpp"
@@ -19,7 +20,8 @@ namespace vantage {
 struct SimulatedRobotOptions {
   std::shared_ptr<const PoseErrorModel> error = {};  // of each move; none: the robot is exact
   bool first_pose_exact = false;  // the first move ends where it was commanded (spec, section 6: with ICP)
-  DepthNoise depth_noise = {};    // of every range image
+  SensorModel sensor = {};        // errors of every range image
+  FlyingPixelRule flying_pixels = FlyingPixelRule::keep;
 
   void validate() const;
 };

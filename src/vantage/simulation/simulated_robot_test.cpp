@@ -199,7 +199,7 @@ TEST_F(SimulatedRobotTest, MovesFailWhereThereIsNoRoom) {
 }
 
 TEST_F(SimulatedRobotTest, NoiseIsOnTheImage) {
-  SimulatedRobot noisy_robot = robot({.depth_noise = {.a = 0.01}});
+  SimulatedRobot noisy_robot = robot({.sensor = {.constant = 0.01}});
   EXPECT_THROW((void)noisy_robot.take_range_image(), InputError);  // it is nowhere yet
   ASSERT_TRUE(noisy_robot.move_to(front));
   const RangeImage exact = scanner.scan(small_camera(), front);
@@ -215,7 +215,7 @@ TEST_F(SimulatedRobotTest, NoiseIsOnTheImage) {
   EXPECT_GT(hits, 40);
 }
 
-TEST_F(SimulatedRobotTest, RefusesBadOptions) { EXPECT_THROW(robot({.depth_noise = {.a = -1}}), InputError); }
+TEST_F(SimulatedRobotTest, RefusesBadOptions) { EXPECT_THROW(robot({.sensor = {.constant = -1}}), InputError); }
 
 }  // namespace
 }  // namespace vantage
