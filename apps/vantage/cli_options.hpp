@@ -28,6 +28,21 @@ inline const char* type_name(OptionField::Kind kind) {
   return "TEXT";
 }
 
+/// Adds one option: `--name VALUE`, or `--name` and `--no-name` for a flag.
+inline void add_option(CLI::App& command, const OptionField& field) {
+  const std::string help = field.unit.empty() ? field.meaning : fmt::format("{} [{}]", field.meaning, field.unit);
+  if (field.kind == OptionField::Kind::flag) {
+    command.add_flag_function(
+        fmt::format("--{0},!--no-{0}", field.name),
+        [field](std::int64_t count) { set_option(field, count > 0 ? "true" : "false", "--" + field.name); }, help);
+    return;
+  }
+  CLI::Option* option = command.add_option_function<std::string>(
+      "--" + field.name, [field](const std::string& text) { set_option(field, text, "--" + field.name); }, help);
+  option->type_name(type_name(field.kind));
+  if (field.text() != no_value) option->default_str(field.text());
+}
+
 /// Adds the options as `--name VALUE`, flags as `--name` and `--no-name`, with defaults, units and meanings in the
 /// help, and `--config FILE` for all of them at once: what stands on the command line wins over the file. The options
 /// that the fields belong to must outlive the parsing; a bad value is an InputError that names the option. `also_known`
@@ -44,19 +59,24 @@ inline void add_options(CLI::App& command, const std::vector<OptionField>& field
         set_options_from_yaml(fields, text, path, also_known);
       },
       "YAML file with options; see `vantage config`");
-  for (const OptionField& field : fields) {
-    const std::string help = field.unit.empty() ? field.meaning : fmt::format("{} [{}]", field.meaning, field.unit);
-    if (field.kind == OptionField::Kind::flag) {
-      command.add_flag_function(
-          fmt::format("--{0},!--no-{0}", field.name),
-          [field](std::int64_t count) { set_option(field, count > 0 ? "true" : "false", "--" + field.name); }, help);
-    } else {
-      CLI::Option* option = command.add_option_function<std::string>(
-          "--" + field.name, [field](const std::string& text) { set_option(field, text, "--" + field.name); }, help);
-      if (field.name == "package") option->join(';');  // once for each package
-      option->type_name(type_name(field.kind));
-      if (field.text() != no_value) option->default_str(field.text());
-    }
+  for (const OptionField& field : fields) add_option(command, field);
+}
+
+/// The fields and those of another struct with a describe() behind them. The struct must outlive them.
+template <class Options>
+std::vector<OptionField> with_fields(std::vector<OptionField> fields, Options& options) {
+  for (OptionField& field : option_fields(options)) fields.push_back(std::move(field));
+  return fields;
+}
+
+/// Appends the fields whose values are not the defaults.
+template <class Options>
+void append_changed(std::vector<OptionField>& fields, Options& options) {
+  Options defaults;
+  const std::vector<OptionField> unchanged = option_fields(defaults);
+  std::vector<OptionField> mine = option_fields(options);
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    if (mine[i].text() != unchanged[i].text()) fields.push_back(std::move(mine[i]));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "vantage/doctor/doctor.hpp"
 #include "vantage/experiments/experiments.hpp"
 #include "vantage/model/from_scans.hpp"
+#include "vantage/model/surface_volume.hpp"
 #include "vantage/options/options.hpp"
 #include "vantage/options/reconstruct_options.hpp"
 #include "vantage/options/robot_file.hpp"
@@ -34,6 +35,7 @@ void add_config(CLI::App& program) {
     ReconstructOptions reconstruct;
     ScanPlanOptions plan;
     ScanFolderOptions folder;
+    SurfaceOptions surface;
     if (*markdown) {
       fmt::print(
           "# Options\n\nMade by `vantage config --markdown`. Every option is a key of a file given with `--config`, "
@@ -42,6 +44,7 @@ void add_config(CLI::App& program) {
     print_section("vantage reconstruct", option_fields(reconstruct), *markdown);
     print_section("vantage plan, vantage session new: the scene", option_fields(plan), *markdown);
     print_section("vantage plan: reading scans", option_fields(folder), *markdown);
+    print_section("vantage reconstruct and plan: the mesh", option_fields(surface), *markdown);
     CurrentPlace place;
     print_section("vantage evaluate: also those of reconstruct that decide how a view is planned", option_fields(place),
                   *markdown);

@@ -29,7 +29,7 @@ const std::vector<Group>& groups_of_scans() {
         "--frame", "--every", "--sensor"}},
       {"Registration", {"--registration", "--pose-error", "--pose-angle-error"}},
       {"Planning", {"--utility", "--workspace", "--robot", "--deadline"}},
-      {"Output", {"--out", "--overwrite", "--report", "--top", "--json", "--config"}}};
+      {"Output", {"--out", "--overwrite", "--report", "--watertight", "--top", "--json", "--config"}}};
   return groups;
 }
 
@@ -39,7 +39,7 @@ CommandHelp help_of(const std::string& command) {
              {"Planning", {"--utility", "--search", "--robot", "--workspace", "--max-views", "--seed"}},
              {"Robot that misses",
               {"--positioning-error", "--orientation-error", "--registration", "--convolve", "--believed-error"}},
-             {"Output", {"--out", "--overwrite", "--report", "--serve", "--config"}}},
+             {"Output", {"--out", "--overwrite", "--report", "--watertight", "--serve", "--config"}}},
             "vantage reconstruct mug --out runs/mug"};
   }
   if (command == "plan") {

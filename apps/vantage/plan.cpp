@@ -28,6 +28,7 @@ struct PlanRequest {
   bool overwrite = false;
   bool report = true;
   ScanPlanningOptions options;
+  SurfaceOptions surface;
   std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
 };
@@ -37,10 +38,12 @@ RunDescription describe_run(PlanRequest& request, const RangeCamera& camera) {
   description.command = "plan";
   description.object = std::filesystem::path(name_of_folder(request.scans)).stem().string();
   description.program = VANTAGE_VERSION;
-  const std::vector<OptionField> fields = option_fields(request.options);
+  std::vector<OptionField> fields = option_fields(request.options);
+  append_changed(fields, request.surface);
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
   description.config = "# vantage plan " + request.scans + "\n" + options_as_yaml(fields);
   description.camera = camera;
+  if (request.report) description.surface = request.surface;
   return description;
 }
 
@@ -60,6 +63,7 @@ void plan(PlanRequest& request) {
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
   load_robot(request.options.planning, request.given);
   request.options.validate_without_commands();
+  request.surface.validate();
   const ScanSet set = open_scans(request.scans, request.options.reading);
   if (!request.program.quiet) print_scan_set(set);
   std::vector<PendingScan> pending;
@@ -128,7 +132,7 @@ void add_plan(CLI::App& program) {
                     "write into --out although it holds other files, and replace those of the same names");
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
   command->add_flag("--report,!--no-report", request->report, "write mesh.ply and report.html");
-  add_options(*command, noting(option_fields(request->options), request->given));
+  add_options(*command, noting(with_fields(option_fields(request->options), request->surface), request->given));
   add_program_options(*command, request->program);
   command->callback([request] { plan(*request); });
 }

@@ -30,6 +30,7 @@ struct ReconstructRequest {
   std::string serve;  // the port; empty: not served
   PageServerOptions server;
   ReconstructOptions options;
+  SurfaceOptions surface;
   std::set<std::string> given;  // names of options that the user set
   ProgramOptions program;
 };
@@ -48,7 +49,9 @@ RunDescription describe_run(const ReconstructRequest& request, const std::string
   description.object = object_name;
   description.program = VANTAGE_VERSION;
   ReconstructOptions options = request.options;
-  const std::vector<OptionField> fields = option_fields(options);
+  SurfaceOptions surface = request.surface;
+  std::vector<OptionField> fields = option_fields(options);
+  append_changed(fields, surface);
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
   description.config =
       fmt::format("# vantage reconstruct {} --config THIS_FILE\n{}", object_name, options_as_yaml(fields));
@@ -57,6 +60,8 @@ RunDescription describe_run(const ReconstructRequest& request, const std::string
   description.candidates_text = request.options.candidates;
   description.truth = object.scanner().mesh();
   description.seed = request.options.seed;
+  if (request.report) description.surface = request.surface;
+  description.sensor = sensor_with({request.options.depth_noise.x(), request.options.depth_noise.y()});
   return description;
 }
 
@@ -138,6 +143,7 @@ void reconstruct(ReconstructRequest& request) {
   const std::string cost =
       cost_note(request.options.candidate_views().views.size(), request.options.range_camera().resolution);
   if (!cost.empty() && !request.program.quiet) print_note("{}\n", cost);
+  request.surface.validate();
   const ObjectSource source = find_object(request.object);
   const SimulatedObject object(source.mesh, request.options.size.value_or(source.default_size), request.options);
   RunFolder folder(
@@ -182,7 +188,7 @@ void add_reconstruct(CLI::App& program) {
   command->add_flag("--serve{8350}", request->serve,
                     "show the run in the browser while it goes on, until Ctrl-C; --serve=PORT, 0: any free one");
   add_page_server_options(*command, request->server);
-  add_options(*command, noting(option_fields(request->options), request->given));
+  add_options(*command, noting(with_fields(option_fields(request->options), request->surface), request->given));
   add_program_options(*command, request->program);
   command->callback([request] { reconstruct(*request); });
 }

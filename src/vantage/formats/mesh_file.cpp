@@ -74,19 +74,66 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
   return parse_mesh(read_file(path), format, path.string());
 }
 
+MeasuredMesh read_measured_mesh(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path), name = path.string();
+  MeasuredMesh measured;
+  measured.mesh = parse_mesh(bytes, MeshFormat::ply, name);
+  const Ply ply = parse_ply(bytes, name);
+  const PlyElement& vertices = *ply.find("vertex");
+  const auto scalar = [](const PlyElement& element, const char* property) {
+    const PlyColumn* column = element.find(property);
+    return column != nullptr && !column->is_list ? column : nullptr;
+  };
+  if (const PlyColumn* sigma = scalar(vertices, "sigma")) {
+    for (const double value : sigma->values) {
+      require(std::isfinite(value) && value >= 0, name, ": a sigma is ", value, ": must not be negative");
+      measured.sigma.push_back(static_cast<float>(value));
+    }
+  }
+  const std::array<const PlyColumn*, 3> color{scalar(vertices, "red"), scalar(vertices, "green"),
+                                              scalar(vertices, "blue")};
+  if (color[0] != nullptr && color[1] != nullptr && color[2] != nullptr) {
+    const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
+    for (std::size_t i = 0; i < vertices.rows; ++i)
+      measured.colors.push_back({byte(color[0]->values[i]), byte(color[1]->values[i]), byte(color[2]->values[i])});
+  }
+  const PlyElement& faces = *ply.find("face");
+  const PlyColumn* cap = scalar(faces, "cap");
+  // Polygons that were cut or left out have no mark of their own.
+  if (cap != nullptr && faces.rows == measured.mesh.triangles.size()) {
+    for (const double value : cap->values) measured.is_cap.push_back(value != 0 ? 1 : 0);
+  }
+  return measured;
+}
+
 void write_mesh_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  write_measured_mesh_ply(path, {.mesh = mesh, .sigma = {}, .is_cap = {}, .colors = {}});
+}
+
+void write_measured_mesh_ply(const std::filesystem::path& path, const MeasuredMesh& measured) {
+  const TriangleMesh& mesh = measured.mesh;
+  const bool has_caps = std::find(measured.is_cap.begin(), measured.is_cap.end(), 1) != measured.is_cap.end();
+  PlyMeshHeader header{.vertices = mesh.vertices.size(), .triangles = mesh.triangles.size()};
+  if (!measured.sigma.empty()) header.vertex_properties.emplace_back("float sigma");
+  if (!measured.colors.empty()) {
+    for (const char* color : {"uchar red", "uchar green", "uchar blue"}) header.vertex_properties.emplace_back(color);
+  }
+  if (has_caps) header.face_properties.emplace_back("uchar cap");
   AtomicFile file(path);
-  const Coordinates coordinates = coordinates_for(mesh.vertices);
-  file.write(ply_header(mesh.vertices.size(), coordinates, {}, mesh.triangles.size()));
+  header.coordinates = coordinates_for(mesh.vertices);
+  file.write(ply_mesh_header(header));
   std::string row;
-  for (const Vec3& vertex : mesh.vertices) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     row.clear();
-    append_point(row, vertex, coordinates);
+    append_point(row, mesh.vertices[i], header.coordinates);
+    if (!measured.sigma.empty()) append_float32(row, static_cast<double>(measured.sigma[i]));
+    if (!measured.colors.empty()) row.append(measured.colors[i].begin(), measured.colors[i].end());
     file.write(row);
   }
-  for (const Index3& triangle : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     row.assign(1, '\x03');
-    for (const int index : triangle) append_int32(row, index);
+    for (const int index : mesh.triangles[i]) append_int32(row, index);
+    if (has_caps) row.push_back(static_cast<char>(measured.is_cap[i]));
     file.write(row);
   }
   file.commit();

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "vantage/core/triangle_mesh.hpp"
+#include "vantage/core/measured_mesh.hpp"
 
 namespace vantage {
 
@@ -24,5 +24,10 @@ enum class MeshFormat { ply, obj, stl, off };
 
 /// Binary little endian, float32, triangles as `list uchar int vertex_indices`; replaces the file atomically.
 void write_mesh_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// The same with what was measured: `float sigma` (metres) per vertex, `uchar red, green, blue` where there are
+/// colours, and `uchar cap` per triangle where some were not seen.
+void write_measured_mesh_ply(const std::filesystem::path& path, const MeasuredMesh& mesh);
+/// A PLY mesh with what such a file says beside the triangles; errors as read_mesh.
+[[nodiscard]] MeasuredMesh read_measured_mesh(const std::filesystem::path& path);
 
 }  // namespace vantage

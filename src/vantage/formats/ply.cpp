@@ -364,13 +364,21 @@ Coordinates coordinates_for(const std::vector<Vec3>& points) {
   return coordinates_for(largest, resolution * box.sizes().maxCoeff());
 }
 
-std::string ply_header(std::size_t vertices, Coordinates coordinates, const std::vector<std::string>& properties,
-                       std::size_t faces) {
+std::string ply_header(std::size_t vertices, Coordinates coordinates, const std::vector<std::string>& properties) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", vertices);
   const char* const type = coordinates == Coordinates::float32 ? "float" : "double";
   for (const char axis : {'x', 'y', 'z'}) header += fmt::format("property {} {}\n", type, axis);
   for (const std::string& property : properties) header += fmt::format("property float {}\n", property);
-  if (faces > 0) header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces);
+  return header + "end_header\n";
+}
+
+std::string ply_mesh_header(const PlyMeshHeader& mesh) {
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices);
+  const char* const type = mesh.coordinates == Coordinates::float32 ? "float" : "double";
+  for (const char axis : {'x', 'y', 'z'}) header += fmt::format("property {} {}\n", type, axis);
+  for (const std::string& property : mesh.vertex_properties) header += fmt::format("property {}\n", property);
+  header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles);
+  for (const std::string& property : mesh.face_properties) header += fmt::format("property {}\n", property);
   return header + "end_header\n";
 }
 

@@ -56,10 +56,17 @@ enum class Coordinates { float32, float64 };
 /// float32 where it keeps the points to a 2^18th of their extent.
 [[nodiscard]] Coordinates coordinates_for(const std::vector<Vec3>& points);
 
-/// The header of a binary little-endian file with one element `vertex` of x, y, z and further float32 properties, with
-/// `faces` an element `face` of `list uchar int vertex_indices` after it.
+/// The header of a binary little-endian file with one element `vertex` of x, y, z and further float32 properties.
 [[nodiscard]] std::string ply_header(std::size_t vertices, Coordinates coordinates,
-                                     const std::vector<std::string>& properties, std::size_t faces = 0);
+                                     const std::vector<std::string>& properties);
+
+/// What a binary little-endian mesh has beside x, y, z and `list uchar int vertex_indices`.
+struct PlyMeshHeader {
+  std::size_t vertices = 0, triangles = 0;
+  Coordinates coordinates = Coordinates::float32;
+  std::vector<std::string> vertex_properties = {}, face_properties = {};  // with their types: "float sigma"
+};
+[[nodiscard]] std::string ply_mesh_header(const PlyMeshHeader& header);
 
 /// Appends x, y, z, little endian.
 void append_point(std::string& bytes, const Vec3& point, Coordinates coordinates);

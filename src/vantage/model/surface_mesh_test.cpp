@@ -1,36 +1,23 @@
 #include "vantage/model/surface_mesh.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
-#include <cmath>
 #include <map>
-#include <numbers>
 
-#include "vantage/core/error.hpp"
 #include "vantage/core/random.hpp"
+#include "vantage/model/surface_field.hpp"
 
 namespace vantage {
 namespace {
-
-PointCloud ball(double radius, int count, double noise = 0) {
-  Random random(11);
-  PointCloud cloud;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 normal = random.unit_vector();
-    cloud.add((radius + noise * random.normal()) * normal, normal);
-  }
-  return cloud;
-}
 
 /// How many directed edges occur without their opposite, and how many more than once.
 struct EdgeCount {
   int open = 0, doubled = 0;
 };
 
-EdgeCount count_edges(const TriangleMesh& mesh) {
+EdgeCount count_edges(const std::vector<Index3>& triangles) {
   std::map<std::pair<int, int>, int> directed;
-  for (const Index3& triangle : mesh.triangles) {
+  for (const Index3& triangle : triangles) {
     for (int k = 0; k < 3; ++k) ++directed[{triangle[k], triangle[(k + 1) % 3]}];
   }
   EdgeCount count;
@@ -41,95 +28,72 @@ EdgeCount count_edges(const TriangleMesh& mesh) {
   return count;
 }
 
-double volume(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    sum += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2))) / 6;
+/// Blocks that fill a cube of `blocks`^3, with `distance` at each node, seen by `frames` frames.
+template <class Distance>
+SurfaceBlocks filled(int blocks, int frames, const Distance& distance) {
+  SurfaceBlocks result(1);
+  std::vector<Index3> keys;
+  for (int z = 0; z < blocks; ++z) {
+    for (int y = 0; y < blocks; ++y) {
+      for (int x = 0; x < blocks; ++x) keys.emplace_back(x, y, z);
+    }
   }
-  return sum;
-}
-
-double area(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0);
-    sum += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
+  result.make(keys);
+  for (const auto& block : result.all()) {
+    for (std::size_t n = 0; n < SurfaceBlock::size; ++n) {
+      const int node = static_cast<int>(n);
+      const Index3 at = 8 * block->key + Index3(node & 7, node >> 3 & 7, node >> 6);
+      const float value = distance(at);
+      for (int frame = 0; frame < frames; ++frame)
+        block->add(n, {value, 1e6F, Vec3f::UnitX(), 1, static_cast<std::uint16_t>(frame)});
+    }
   }
-  return sum;
+  return result;
 }
 
-TEST(SurfaceMesh, ClosesABallFacingOutwards) {
-  const TriangleMesh mesh = surface_mesh(ball(0.4, 60000), {.cell = 0.02});
-  ASSERT_GT(mesh.triangles.size(), 5000U);
-  EXPECT_EQ(count_edges(mesh).open, 0);
-  EXPECT_EQ(count_edges(mesh).doubled, 0);
-  for (const Vec3& vertex : mesh.vertices) EXPECT_NEAR(vertex.norm(), 0.4, 5e-4);
-  const double exact = 4.0 / 3 * std::numbers::pi * 0.4 * 0.4 * 0.4;
-  EXPECT_NEAR(volume(mesh), exact, 0.005 * exact);  // positive: triangles face outwards
+Box3 box_of(int blocks) { return {Vec3::Zero(), Vec3::Constant(8.0 * blocks)}; }
+
+TEST(SurfaceMesh, IsAClosedManifoldWhateverTheSigns) {
+  Random random(3);
+  const SurfaceBlocks blocks = filled(2, 1, [&](const Index3& at) {
+    const bool is_border = at.minCoeff() == 0 || at.maxCoeff() == 15;
+    return is_border ? 3.0F : static_cast<float>(random.uniform() - 0.5);
+  });
+  const SurfaceNet net = surface_net(SurfaceField(blocks), box_of(2));
+  ASSERT_GT(net.triangles.size(), 5000U);
+  EXPECT_EQ(count_edges(net.triangles).open, 0);
+  EXPECT_EQ(count_edges(net.triangles).doubled, 0);
+  const MeasuredMesh mesh = closed_mesh(net, 1);
+  EXPECT_EQ(count_edges(mesh.mesh.triangles).open, 0);
+  for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t)
+    EXPECT_NE(mesh.mesh.corner(t, 0), mesh.mesh.corner(t, 1));
 }
 
-TEST(SurfaceMesh, SmoothsNoise) {
-  const TriangleMesh mesh = surface_mesh(ball(0.4, 60000, 0.003), {.cell = 0.02});
-  double squares = 0;
-  for (const Vec3& vertex : mesh.vertices) squares += (vertex.norm() - 0.4) * (vertex.norm() - 0.4);
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(mesh.vertices.size())), 0.0015);
+float ball(const Index3& at, const Vec3& center, double radius) {
+  return static_cast<float>((at.cast<double>() - center).norm() - radius);
 }
 
-TEST(SurfaceMesh, StaysOpenWhereNothingWasSeen) {
-  Random random(12);
-  PointCloud square;
-  for (int i = 0; i < 20000; ++i) square.add({random.uniform(), random.uniform(), 0.3}, Vec3::UnitZ());
-  const TriangleMesh mesh = surface_mesh(square, {.cell = 0.05});
-  EXPECT_NEAR(area(mesh), 1, 0.15);  // the border ends within a cell or so of the last points
-  double facing_down = 0;            // slivers at the ragged border may turn over
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0);
-    facing_down += std::max(0.0, -(mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).z() / 2);
+TEST(SurfaceMesh, DropsPartsThatTooFewFramesSaw) {
+  const auto two_balls = [](const Index3& at) { return std::min(ball(at, {5, 8, 8}, 3), ball(at, {12, 8, 8}, 2)); };
+  const SurfaceNet net = surface_net(SurfaceField(filled(2, 2, two_balls)), box_of(2));
+  EXPECT_FALSE(open_mesh(net, 2).empty());
+  EXPECT_TRUE(open_mesh(net, 3).empty());
+  const SurfaceNet seen_more = surface_net(SurfaceField(filled(2, 3, two_balls)), box_of(2));
+  EXPECT_EQ(open_mesh(seen_more, 3).mesh.triangles.size(), net.triangles.size());
+}
+
+TEST(SurfaceMesh, SplitsVerticesWhereTheBorderTouchesItself) {
+  SurfaceNet net;
+  net.vertices.resize(5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    net.vertices[i].position = Vec3f::Constant(static_cast<float>(i));
+    net.vertices[i].is_seen = true;
   }
-  EXPECT_LT(facing_down, 0.002);
-}
-
-TEST(SurfaceMesh, KeepsBothSidesOfAWallTwoCellsThick) {
-  Random random(13);
-  PointCloud wall;
-  for (int i = 0; i < 40000; ++i) {
-    const double side = i % 2 == 0 ? 1 : -1;
-    wall.add({random.uniform(), random.uniform(), side * 0.04}, side * Vec3::UnitZ());
-  }
-  const TriangleMesh mesh = surface_mesh(wall, {.cell = 0.04});
-  EXPECT_NEAR(area(mesh), 2, 0.25);
-  for (const Vec3& vertex : mesh.vertices) EXPECT_NEAR(std::abs(vertex.z()), 0.04, 1e-3);
-}
-
-TEST(SurfaceMesh, HasTheSameBitsForAnyNumberOfThreads) {
-  const PointCloud cloud = ball(0.3, 20000, 0.001);
-  const TriangleMesh reference = surface_mesh(cloud);
-  ASSERT_FALSE(reference.triangles.empty());
-  for (const std::size_t threads : {1, 2, 8}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const TriangleMesh mesh = surface_mesh(cloud);
-    EXPECT_EQ(mesh.vertices, reference.vertices);
-    EXPECT_EQ(mesh.triangles, reference.triangles);
-  }
-}
-
-TEST(SurfaceMesh, KeepsToItsLimitOfCells) {
-  const PointCloud cloud = ball(0.4, 60000);
-  const TriangleMesh fine = surface_mesh(cloud, {.cell = 0.01});
-  const TriangleMesh limited = surface_mesh(cloud, {.cell = 0.01, .most_cells = 2000});
-  EXPECT_LT(limited.vertices.size(), fine.vertices.size() / 4);
-  EXPECT_EQ(count_edges(limited).open, 0);
-  EXPECT_LE(limited.vertices.size(), 2 * 2000U);
-}
-
-TEST(SurfaceMesh, IsEmptyWithoutPointsAndRejectsABadCell) {
-  EXPECT_TRUE(surface_mesh(PointCloud{}).triangles.empty());
-  try {
-    (void)surface_mesh(PointCloud{}, {.cell = -1.0});
-    FAIL() << "accepted a negative cell";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "cell = -1 m: must be positive");
-  }
+  net.triangles = {{0, 1, 2}, {0, 3, 4}};
+  const MeasuredMesh mesh = open_mesh(net, 0);
+  EXPECT_EQ(mesh.mesh.vertices.size(), 6U);
+  EXPECT_EQ(mesh.mesh.triangles.size(), 2U);
+  EXPECT_EQ(mesh.mesh.corner(0, 0), mesh.mesh.corner(1, 0));
 }
 
 }  // namespace

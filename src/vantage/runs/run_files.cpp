@@ -42,6 +42,18 @@ Json pose_error_json(const PoseError& error) {
   return json;
 }
 
+Json mesh_quality_json(const MeshQuality& quality) {
+  return {{"triangles", quality.triangles},
+          {"seen_area", quality.seen_area},
+          {"cap_area", quality.cap_area},
+          {"cap_share", quality.cap_share()},
+          {"volume", or_null(quality.volume)},
+          {"sigma_median", quality.median_sigma},
+          {"sigma_95", quality.percentile_95_sigma},
+          {"target_accuracy", or_null(quality.wanted_sigma)},
+          {"accurate_area", or_null(quality.accurate_area)}};
+}
+
 std::array<double, 7> pose_numbers(const Pose& pose) {
   Eigen::Quaterniond q(pose.linear());
   q.normalize();
@@ -125,6 +137,7 @@ Json summary_json(const ObjectModel& model, const RunSummary& summary) {
   json["learned_error"] = model.scans.empty() || !model.scans.back().learned_error
                               ? Json(nullptr)
                               : pose_error_json(*model.scans.back().learned_error);
+  json["mesh"] = summary.mesh ? mesh_quality_json(*summary.mesh) : Json(nullptr);
   json["scans"] = Json::array();
   for (const ScanRecord& record : model.scans) json["scans"].push_back(scan_json(record));
   return json;

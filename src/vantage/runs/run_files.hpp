@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "vantage/model/mesh_quality.hpp"
 #include "vantage/model/reconstruction.hpp"
 
 namespace vantage {
@@ -15,6 +16,7 @@ struct RunSummary {
   /// Distances of the fused points to the true surface, metres, and shares of the true surface within 5 mm of a fused
   /// point; known in simulation only.
   std::optional<double> accuracy_rms, accuracy_95, completeness, completeness_all;
+  std::optional<MeshQuality> mesh;  // of mesh.ply
 };
 
 /// A pose as x y z qx qy qz qw with qw >= 0.
@@ -26,6 +28,9 @@ struct RunSummary {
 /// The deviation of a depth z under the incidence t, constant + linear z + quadratic z^2 + incidence tan^2 t, and the
 /// steps between depths; metres.
 [[nodiscard]] nlohmann::ordered_json sensor_json(const SensorModel& sensor);
+
+/// The object `mesh` of `summary.json`: square metres, cubic metres, metres.
+[[nodiscard]] nlohmann::ordered_json mesh_quality_json(const MeshQuality& quality);
 
 /// One scan as the keys of spec section 10; absent values are null. Poses are arrays of 7 numbers.
 [[nodiscard]] nlohmann::ordered_json scan_json(const ScanRecord& record);

@@ -11,7 +11,6 @@
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
 #include "vantage/formats/pose_file.hpp"
-#include "vantage/model/surface_mesh.hpp"
 #include "vantage/runs/run_document.hpp"
 #include "vantage/runs/run_log.hpp"
 
@@ -46,7 +45,7 @@ std::string intrinsics_text(const RangeCamera& camera) {
 /// A frame as `vantage plan` reads it, with what it needs to know about all frames beside it.
 void write_frame(const std::filesystem::path& folder, const ScanRecord& record, const RangeImage& image) {
   const DepthEncoding encoding = encoding_for(image.camera);
-  const std::string name = fmt::format("scan-{:03}", record.scan);
+  const std::string name = scan_file_name(record.scan);
   write_depth_png(folder / (name + ".depth.png"), image, encoding);
   write_pose(folder / (name + ".pose.txt"), record.registered.world_from_sensor);
   if (record.scan > 0) return;
@@ -59,6 +58,8 @@ void write_frame(const std::filesystem::path& folder, const ScanRecord& record, 
 }
 
 }  // namespace
+
+std::string scan_file_name(int scan) { return fmt::format("scan-{:03}", scan); }
 
 PointCloud object_cloud(const ObjectModel& model) {
   const PointCloud& all = model.surface.cloud();
@@ -96,6 +97,7 @@ void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const Objec
   if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path() / "scans", record, image->image);
   data_.grid = model.map.grid();
   data_.enclosure = model.map.enclosure();
+  add_to_surface(record, scan, model.map);
   if (on_event && data_.scans.empty()) on_event("run", run_json(data_));
   data_.add_scan(record, model, plan);
   if (on_event) on_event("scan", scan_json(data_.scans.back()));
@@ -105,6 +107,21 @@ void RunFolder::add_plan(const Plan& plan) {
   if (on_event) on_event("plan", plan_json(candidate_plan(plan, description_.candidates.views.size())));
 }
 
+void RunFolder::add_to_surface(const ScanRecord& record, const Scan& scan, const VoxelMap& map) {
+  if (!description_.surface || !record.merged) return;
+  if (!surface_) surface_.emplace(map.grid().box(map.enclosure()), *description_.surface);
+  surface_->fuse(scan, record.registered, description_.sensor, record.residual);
+}
+
+std::optional<MeshQuality> RunFolder::write_surface(const VoxelMap& map) {
+  if (!surface_) return std::nullopt;
+  const MeasuredMesh mesh = surface_->mesh(map);
+  if (mesh.empty()) return std::nullopt;
+  write_measured_mesh_ply(path() / "mesh.ply", mesh);
+  data_.mesh = mesh.mesh;
+  return quality_of(mesh, surface_->options().target_accuracy);
+}
+
 void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
                        double total_seconds, const RunPage& page) {
   write_map(model.map, path() / "map.nrrd");
@@ -112,22 +129,17 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
   write_file_atomically(path() / "config.yaml", description_.config);
   write_file_atomically(path() / "views.csv", views_csv(model.scans));
   write_file_atomically(path() / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
-  write_file_atomically(path() / "summary.json", summary_json(model, summary).dump(2) + "\n");
+  RunSummary whole = summary;
+  whole.mesh = write_surface(model.map);
+  write_file_atomically(path() / "summary.json", summary_json(model, whole).dump(2) + "\n");
   if (!page && !on_event) return;
   data_.finish(model, summary.stop_reason);
   if (next) data_.next = candidate_plan(*next, description_.candidates.views.size());
-  if (page) write_report(model, total_seconds, page);
+  if (page) write_file_atomically(path() / "report.html", page(data_, model.map, total_seconds));
   if (!on_event) return;
   if (data_.next) on_event("plan", plan_json(*data_.next));
   on_event("result", result_json(data_));
   on_event("state", state_json(data_));
-}
-
-void RunFolder::write_report(const ObjectModel& model, double total_seconds, const RunPage& page) {
-  const TriangleMesh mesh = surface_mesh(object_cloud(model));
-  if (!mesh.triangles.empty()) write_mesh_ply(path() / "mesh.ply", mesh);
-  data_.mesh = mesh;
-  write_file_atomically(path() / "report.html", page(data_, model.map, total_seconds));
 }
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "vantage/model/surface_volume.hpp"
 #include "vantage/runs/output_folder.hpp"
 #include "vantage/runs/run_data.hpp"
 #include "vantage/runs/run_files.hpp"
@@ -22,6 +23,9 @@ struct RunDescription {
   std::string candidates_text;
   std::optional<TriangleMesh> truth;  // simulation only
   std::optional<std::uint64_t> seed;  // of what is random in the run
+  /// Builds the surface from the scans, so that there is a mesh.
+  std::optional<SurfaceOptions> surface;
+  std::optional<SensorModel> sensor;  // what the surface weighs by; estimated where not known
 };
 
 /// The page that shows a finished run, for report.html. `seconds`: wall-clock time of the whole run.
@@ -47,17 +51,23 @@ class RunFolder {
   void add_scan(const ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan);
   /// Tells of a plan that will lead to the next scan.
   void add_plan(const Plan& plan);
-  /// Writes everything else; mesh.ply and report.html where there is a `page`.
+  /// Writes everything else: mesh.ply where the surface was built, report.html where there is a `page`.
   void finish(const ObjectModel& model, const RunSummary& summary, const std::optional<Plan>& next,
               double total_seconds, const RunPage& page);
 
  private:
-  void write_report(const ObjectModel& model, double total_seconds, const RunPage& page);
+  void add_to_surface(const ScanRecord& record, const Scan& scan, const VoxelMap& map);
+  /// Returns how good the mesh is; nothing where there is none.
+  [[nodiscard]] std::optional<MeshQuality> write_surface(const VoxelMap& map);
 
   OutputFolder folder_;
   RunDescription description_;
   RunData data_;
+  std::optional<SurfaceVolume> surface_;
 };
+
+/// The name of a run's scan in the folder `scans/`, without endings.
+[[nodiscard]] std::string scan_file_name(int scan);
 
 /// Points of the fused cloud that lie in the object's enclosure.
 [[nodiscard]] PointCloud object_cloud(const ObjectModel& model);

@@ -76,6 +76,8 @@ StoredSummary parse_run_summary(std::string_view bytes, const std::string& name)
     require(merged.is_null() || merged.is_boolean(), what, ".merged: must be true or false");
     // Summaries of earlier versions have only the word.
     scan.merged = merged.is_boolean() ? merged.get<bool>() : !says_that_it_failed(scan.verdict);
+    if (scans[i].contains("residual") && !scans[i]["residual"].is_null())
+      scan.residual = json_number(scans[i]["residual"], what + ".residual");
     result.scans.push_back(scan);
   }
   return result;

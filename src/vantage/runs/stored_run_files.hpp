@@ -12,7 +12,7 @@ namespace vantage {
 /// What summary.json says of the scans of a run.
 struct StoredSummary {
   std::optional<std::string> object;
-  std::vector<ScanRecord> scans;  // number, candidate, poses and verdict
+  std::vector<ScanRecord> scans;  // number, candidate, poses, verdict and residual
 };
 
 /// Reads the text of a summary.json; `name` stands in errors. Throws InputError naming the field.

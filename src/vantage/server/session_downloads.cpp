@@ -3,7 +3,6 @@
 #include "vantage/formats/map_file.hpp"
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
-#include "vantage/model/surface_mesh.hpp"
 #include "vantage/server/scratch_folder.hpp"
 #include "vantage/server/session_request.hpp"
 #include "vantage/server/session_service.hpp"
@@ -56,8 +55,8 @@ HttpAnswer SessionService::mesh(const HttpRequest& request) {
   // It takes seconds: one at a time, and once for each state.
   const std::lock_guard lock(mesh_mutex_);
   if (meshed_ != state) {
-    const TriangleMesh surface = surface_mesh(session_->cloud());
-    mesh_ = written("mesh.ply", [&](const auto& path) { write_mesh_ply(path, surface); });
+    const MeasuredMesh surface = session_->mesh();
+    mesh_ = written("mesh.ply", [&](const auto& path) { write_measured_mesh_ply(path, surface); });
     meshed_ = state;
   }
   return download("mesh.ply", mesh_);

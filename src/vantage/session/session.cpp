@@ -237,4 +237,23 @@ PointCloud Session::cloud() {
   return object_cloud(model_->model());
 }
 
+MeasuredMesh Session::mesh() {
+  const std::lock_guard meshing(meshing_);
+  const auto now = state();
+  const std::vector<int>& numbers = now->numbers;
+  const bool goes_on =
+      surface_ && fused_.size() <= numbers.size() && std::equal(fused_.begin(), fused_.end(), numbers.begin());
+  if (!goes_on) {
+    surface_.emplace(now->map.grid().box(now->map.enclosure()));
+    fused_.clear();
+  }
+  for (std::size_t i = fused_.size(); i < numbers.size(); ++i) {
+    fused_.push_back(numbers[i]);
+    const ScanRecord& record = now->scans[i];
+    if (!record.merged) continue;
+    surface_->fuse(folder_.read(numbers[i]).scan, record.registered, std::nullopt, record.residual);
+  }
+  return surface_->mesh();
+}
+
 }  // namespace vantage

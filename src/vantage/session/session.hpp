@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 
+#include "vantage/model/surface_volume.hpp"
 #include "vantage/runs/run_folder.hpp"
 #include "vantage/session/session_folder.hpp"
 #include "vantage/session/session_model.hpp"
@@ -70,6 +71,8 @@ class Session {
   [[nodiscard]] SessionStatus status();
   /// The fused cloud in the box; waits for a registration that goes on.
   [[nodiscard]] PointCloud cloud();
+  /// The surface in the box, from the last integrated scans; those that came since the call before are added to it.
+  [[nodiscard]] MeasuredMesh mesh();
   /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10). Scans may be
   /// added during that and after it. Throws InputError where files of these names are there that no session wrote,
   /// unless they are to be overwritten.
@@ -93,9 +96,9 @@ class Session {
   void change_skipped(int candidate, const std::optional<std::string>& reason);
   [[nodiscard]] std::shared_ptr<const SessionState> state() const;
 
-  // Locked in this order: the files that finish() writes; the model; the plan that was made last; the folder and the
-  // scans that wait to be merged; and, for moments only, what everybody looks at.
-  std::mutex finishing_, merging_, planning_, storing_;
+  // Locked in this order: the files that finish() writes; the surface; the model; the plan that was made last; the
+  // folder and the scans that wait to be merged; and, for moments only, what everybody looks at.
+  std::mutex finishing_, meshing_, merging_, planning_, storing_;
   mutable std::mutex looking_;
 
   SessionFolder folder_;
@@ -104,6 +107,8 @@ class Session {
   std::map<std::string, int> number_of_key_;
   std::unique_ptr<SessionModel> model_;
   bool model_is_whole_ = true;  // no merging broke off in the middle of a scan
+  std::optional<SurfaceVolume> surface_;
+  std::vector<int> fused_;  // numbers of the scans that surface_ has seen
   std::optional<SessionPlan> plan_;
   std::map<int, std::string> skipped_of_plan_;
 

@@ -23,6 +23,7 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
   description.camera = planner.camera();
   description.candidates = planner.candidates();
   description.candidates_text = fmt::format("sphere:{}:{:.3f}", options.scene.views, state.radius);
+  description.surface = SurfaceOptions{};
   return description;
 }
 
