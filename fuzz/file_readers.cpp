@@ -54,7 +54,7 @@ void read_raw_pose(std::string_view bytes) {
   require(matrix.has_value(), "input: has not 16 numbers");
   const std::vector<RawPose> poses{{"input", *matrix}};
   (void)check_rotations(poses);
-  for (int flipped = 0; flipped < 4; ++flipped) (void)mended(poses, flipped);
+  for (int flipped = 0; flipped < 4; ++flipped) (void)fixed(poses, flipped);
 }
 
 void read_raw_depth(std::string_view bytes) {

@@ -37,7 +37,7 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis) {
   for (const Finding& finding : diagnosis.findings) {
     json["findings"].push_back({{"check", finding.check},
                                 {"wrong", finding.wrong},
-                                {"fix", finding.mend},
+                                {"fix", finding.fix},
                                 {"evidence", finding.evidence},
                                 {"note", finding.is_note}});
   }
@@ -56,8 +56,7 @@ void print_diagnosis(const Diagnosis& diagnosis) {
       if (finding.check != check.name) continue;
       content = false;
       fmt::print("{}  {:<14}  {}\n       {:<14}  fix: {}\n       {:<14}  because {}\n",
-                 finding.is_note ? "note " : "WRONG", check.name, finding.wrong, "", finding.mend, "",
-                 finding.evidence);
+                 finding.is_note ? "note " : "WRONG", check.name, finding.wrong, "", finding.fix, "", finding.evidence);
     }
     if (!content) continue;
     if (diagnosis.not_compared && !needs_no_comparison(check.name)) {

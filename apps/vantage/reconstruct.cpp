@@ -97,7 +97,7 @@ struct Audience {
     if (request.report) log.emplace(folder);
   }
 
-  /// The run goes on where they cannot be told.
+  /// The run goes on where they cannot be notified.
   void tell(std::string_view event, const nlohmann::ordered_json& data) {
     try {
       if (log) log->add(event, data);

@@ -69,13 +69,13 @@ std::vector<Finding> check_box(const Evidence& evidence, const Reading& reading,
   finding.evidence = concat("eight tenths of the points lie, per axis, in ", text_of(where));
   const BoxNumbers millimetres = box / 1000;
   if (const Box3 corners(box.head<3>(), box.tail<3>()); !corners.isEmpty() && points_within(corners, points) > 0) {
-    BoxNumbers mended;
-    mended << corners.center(), corners.sizes();
-    finding.mend = concat("the numbers look like two corners; give center and sizes: --box=", text_of(mended));
+    BoxNumbers fixed;
+    fixed << corners.center(), corners.sizes();
+    finding.fix = concat("the numbers look like two corners; give center and sizes: --box=", text_of(fixed));
   } else if (points_within(around_center(millimetres), points) > 0) {
-    finding.mend = concat("the numbers look like millimetres; give metres: --box=", text_of(millimetres));
+    finding.fix = concat("the numbers look like millimetres; give metres: --box=", text_of(millimetres));
   } else {
-    finding.mend = concat("give the box in the frame that the poses are in, for example --box=", text_of(where));
+    finding.fix = concat("give the box in the frame that the poses are in, for example --box=", text_of(where));
   }
   return {finding};
 }

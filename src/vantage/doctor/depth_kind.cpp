@@ -53,8 +53,8 @@ std::vector<Hypothesis> disparities(const Reading& base, const Evidence& evidenc
   Hypothesis each{"depth-kind", "the images hold disparities, not depths: the larger a value, the nearer", {}, base};
   each.reading.kind = DepthKind::disparity;
   each.reading.depth_scale = fitting_constant(evidence, each.reading, median);
-  each.mend = concat("convert them: depth = focal length x baseline / disparity; by the frames about ",
-                     each.reading.depth_scale, " m / value, where the value is what is now read as metres");
+  each.fix = concat("convert them: depth = focal length x baseline / disparity; by the frames about ",
+                    each.reading.depth_scale, " m / value, where the value is what is now read as metres");
   return {each};
 }
 

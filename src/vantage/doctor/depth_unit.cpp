@@ -31,10 +31,10 @@ std::vector<Hypothesis> depth_units(const Reading& base, const Evidence& evidenc
     if (evidence.camera) {
       each.wrong = concat("the depths are in the wrong unit: read with ", depth_scale, " m per unit, but they are ",
                           depth_scale * factor, " m per unit");
-      each.mend = concat("give --depth-scale ", depth_scale * factor);
+      each.fix = concat("give --depth-scale ", depth_scale * factor);
     } else {
       each.wrong = concat("the clouds are in another unit than the poses: ", factor, " times that");
-      each.mend = concat("multiply the points of the clouds by ", factor);
+      each.fix = concat("multiply the points of the clouds by ", factor);
     }
     hypotheses.push_back(std::move(each));
   }
@@ -49,8 +49,8 @@ std::vector<Hypothesis> position_units(const Reading& base, const Evidence& evid
     Hypothesis each{"position-unit", {}, {}, base};
     for (Pose& pose : each.reading.world_from_sensor) pose.translation() *= metres;
     each.wrong = concat("the positions of the poses are in ", unit, ", not in metres");
-    each.mend = evidence.camera ? concat("give --unit ", unit, " (it is that of floating-point depths, too)")
-                                : concat("write the positions in metres: multiply them by ", metres);
+    each.fix = evidence.camera ? concat("give --unit ", unit, " (it is that of floating-point depths, too)")
+                               : concat("write the positions in metres: multiply them by ", metres);
     hypotheses.push_back(std::move(each));
   }
   return hypotheses;

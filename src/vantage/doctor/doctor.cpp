@@ -103,7 +103,7 @@ Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& option
   }
   Evidence evidence;
   Explained best;
-  for (int way = 0; way < poses.ways(); ++way) {
+  for (int way = 0; way < poses.readings(); ++way) {
     const ScanSet set = open_scans(path, poses.options(reading, way));
     if (way == 0) {
       diagnosis.recognised = set.description;
@@ -125,7 +125,7 @@ Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& option
         static_cast<double>(explained.findings.size()) - static_cast<double>(best.findings.size());
     if (way == 0 || explained.consistency.score() > best.consistency.score() + 0.02 * more_to_fix) {
       best = std::move(explained);
-      if (poses.ways() > 1) diagnosis.findings.back().mend = poses.mend(way);
+      if (poses.readings() > 1) diagnosis.findings.back().fix = poses.fix(way);
     }
   }
   diagnosis.agreement = poses.findings().empty() ? best.given.agrees : 0;

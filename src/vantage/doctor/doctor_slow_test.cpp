@@ -41,13 +41,13 @@ TEST_P(DoctorOnRealFrames, PassesTheUntouchedSetAndFindsEveryMistakeMadeInIt) {
   };
   mistakes.push_back({"no-return", "--no-return", empty_room, options});
   for (const test::Mistake& mistake : mistakes) {
-    SCOPED_TRACE(mistake.check + " " + mistake.mend);
+    SCOPED_TRACE(mistake.check + " " + mistake.fix);
     const TestFolder copy;
     mistake.set.write(copy / "set");
     const Diagnosis diagnosis = examine(copy / "set", mistake.options, [](const std::string&) {});
     EXPECT_THAT(diagnosis.findings,
                 testing::Contains(testing::AllOf(testing::Field(&Finding::check, mistake.check),
-                                                 testing::Field(&Finding::mend, testing::HasSubstr(mistake.mend)))));
+                                                 testing::Field(&Finding::fix, testing::HasSubstr(mistake.fix)))));
   }
   EXPECT_EQ(mistakes.size(), 16U);
 }
@@ -68,7 +68,7 @@ TEST_P(DoctorOnRealFrames, FindsAFrameThatIsOffAlone) {
     for (const Vec3& shift : {Vec3(0.3, 0, 0), Vec3(-0.3, 0, 0), Vec3(0, 0.3, 0), Vec3(0, -0.3, 0)}) {
       frame.world_from_sensor = Eigen::Translation3d(shift) * truth;
       for (const Finding& finding : check_pose_errors(evidence, as_given(evidence), 0.05)) {
-        const bool names_it = finding.mend.find(frame.name) != std::string::npos;
+        const bool names_it = finding.fix.find(frame.name) != std::string::npos;
         ++(names_it ? found : others);
       }
       ++cases;

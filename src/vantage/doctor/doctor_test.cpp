@@ -58,11 +58,11 @@ TEST(Doctor, PassesAGoodSetAndFindsEveryMistakeMadeInIt) {
   EXPECT_EQ(healthy.frames, 18U);
   int found = 0;
   for (const test::Mistake& mistake : test::all_mistakes(good, options)) {
-    SCOPED_TRACE(mistake.check + " " + mistake.mend);
+    SCOPED_TRACE(mistake.check + " " + mistake.fix);
     const Diagnosis diagnosis = diagnose(mistake.set, mistake.options);
     EXPECT_THAT(diagnosis.findings,
                 testing::Contains(testing::AllOf(testing::Field(&Finding::check, mistake.check),
-                                                 testing::Field(&Finding::mend, testing::HasSubstr(mistake.mend)))));
+                                                 testing::Field(&Finding::fix, testing::HasSubstr(mistake.fix)))));
     ++found;
   }
   EXPECT_EQ(found, 15);
@@ -91,9 +91,9 @@ TEST(Doctor, TellsHowABoxWasMeant) {
   *corners.box << -0.6, -0.6, -3, 0.6, 0.6, 0.4;  // taken for center and size it lies below everything
   const Diagnosis first = diagnose(set, millimetres), second = diagnose(set, corners);
   ASSERT_EQ(first.findings.size(), 1U);
-  EXPECT_EQ(first.findings[0].mend, "the numbers look like millimetres; give metres: --box=0.1,0,2,0.9,0.9,3.9");
+  EXPECT_EQ(first.findings[0].fix, "the numbers look like millimetres; give metres: --box=0.1,0,2,0.9,0.9,3.9");
   ASSERT_EQ(second.findings.size(), 1U);
-  EXPECT_EQ(second.findings[0].mend,
+  EXPECT_EQ(second.findings[0].fix,
             "the numbers look like two corners; give center and sizes: --box=0,0,-1.3,1.2,1.2,3.4");
 }
 

@@ -83,7 +83,7 @@ struct SetOnDisk {
 /// A mistake, made in a good set, and the check that has to find it.
 struct Mistake {
   std::string check;
-  std::string mend;  // has to stand in what the doctor says to do
+  std::string fix;  // has to be part of what the doctor says to do
   SetOnDisk set;
   DoctorOptions options;
 };
@@ -92,8 +92,8 @@ struct Mistake {
 [[nodiscard]] inline std::vector<Mistake> all_mistakes(const SetOnDisk& good, const DoctorOptions& options) {
   using Matrix = Eigen::Matrix4d;
   std::vector<Mistake> all;
-  const auto add = [&](const char* check, const char* mend, SetOnDisk set) {
-    all.push_back({check, mend, std::move(set), options});
+  const auto add = [&](const char* check, const char* fix, SetOnDisk set) {
+    all.push_back({check, fix, std::move(set), options});
     return &all.back().options;
   };
   const double scale = options.folder.metres_per_depth_unit();

@@ -24,7 +24,7 @@ std::string percent_text(double share) { return concat(std::round(1000 * share) 
 
 Finding finding_of(const Hypothesis& hypothesis, const Consistency& before, const Consistency& after) {
   return {
-      hypothesis.check, hypothesis.wrong, hypothesis.mend,
+      hypothesis.check, hypothesis.wrong, hypothesis.fix,
       concat("fixed so, frames agree in ", percent_text(after.agrees), " of their points and contradict each other in ",
              percent_text(after.contradiction()), " of what they both look at; as given in ",
              percent_text(before.agrees), " and ", percent_text(before.contradiction()))};

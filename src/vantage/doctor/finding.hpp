@@ -9,7 +9,7 @@ namespace vantage {
 struct Finding {
   std::string check;     // name of the check that found it
   std::string wrong;     // what is wrong, with numbers
-  std::string mend;      // what to do
+  std::string fix;       // what to do
   std::string evidence;  // why the doctor believes so
   bool is_note = false;  // good to know, but nothing is wrong
 };

@@ -11,7 +11,7 @@ namespace vantage {
 struct Hypothesis {
   std::string check;
   std::string wrong;  // what would be wrong
-  std::string mend;   // what to do about it
+  std::string fix;    // what to do about it
   Reading reading;    // as the mistake fixed
 };
 

@@ -21,7 +21,7 @@ std::vector<Hypothesis> other_resolutions(const Reading& base, const RangeCamera
     each.reading.tangent_shift = base.tangent_shift - (1 - factor) / factor * Eigen::Vector2d(camera.left, camera.top);
     each.wrong = concat("the intrinsics are for images of about ", std::lround(columns / factor), "x",
                         std::lround(rows / factor), ", the frames have ", columns, "x", rows);
-    each.mend = concat("multiply fx, fy, cx and cy by ", factor);
+    each.fix = concat("multiply fx, fy, cx and cy by ", factor);
     hypotheses.push_back(std::move(each));
   }
   return hypotheses;

@@ -14,8 +14,8 @@ std::vector<Hypothesis> mirrored_worlds(const Reading& base) {
       pose.translation() = mirror * pose.translation();
     }
     each.wrong = concat("the poses are those of a left-handed frame: its ", "xyz"[axis], " axes point the other way");
-    each.mend = concat("negate the ", "xyz"[axis], " row and the ", "xyz"[axis], " column of every 4x4 matrix (",
-                       "xyz"[axis], " of the position included)");
+    each.fix = concat("negate the ", "xyz"[axis], " row and the ", "xyz"[axis], " column of every 4x4 matrix (",
+                      "xyz"[axis], " of the position included)");
     hypotheses.push_back(std::move(each));
   }
   return hypotheses;

@@ -9,8 +9,8 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t points_asked = 600;      // of each frame, in every pair
-constexpr std::size_t most_frames_asked = 24;  // partners of a frame, evenly picked
+constexpr std::size_t points_moved = 600;      // of each frame, in every pair
+constexpr std::size_t most_frames_moved = 24;  // partners of a frame, evenly picked
 constexpr double margin = 0.03;                // of a depth: a point that much nearer floats in front
 // Measured by examine() on ur5_tray and apc_shelf: untouched frames have 0.02 to 0.07 (one camera that looks along the
 // table 0.17, and it fits nowhere better); moved by 0.3 m along the table 0.10 to 0.5, and once put back the former.
@@ -19,7 +19,7 @@ constexpr double much_better = 0.65;
 constexpr std::array reaches{2.0, 3.0, 4.0, 6.0, 8.0};  // pose errors
 
 std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
-  const std::size_t step = points.size() / points_asked + 1;
+  const std::size_t step = points.size() / points_moved + 1;
   std::vector<Vec3> some;
   for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
   return some;
@@ -43,7 +43,7 @@ class Company {
   /// Share of the points of a frame at this pose that lie where others see through, and of others' where it does.
   [[nodiscard]] double conflict(std::size_t frame, const Pose& world_from_frame) const {
     Count count;
-    const std::size_t step = seen_.size() / most_frames_asked + 1;
+    const std::size_t step = seen_.size() / most_frames_moved + 1;
     for (std::size_t other = 0; other < seen_.size(); ++other) {
       const std::size_t apart = other > frame ? other - frame : frame - other;
       if (apart == 0 || (apart > 2 && apart % step != 0)) continue;

@@ -22,7 +22,7 @@ constexpr double most_contradiction = 0.2;
 constexpr double nothing_common = 0.02;
 constexpr double contradicted = 0.1;  // a frame alone, which the others see less of
 
-double median(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -90,7 +90,7 @@ std::vector<Finding> check_all(const Evidence& evidence, const Reading& reading,
   return {{"pose-errors",
            concat("the frames do not fit each other, no simple mistake explains it, and registration, which searches ",
                   pose_error, " m, does not put it right: the poses are likely off by more"),
-           "calibrate the hand-eye transform anew, see that each pose is of its frame's moment, or give a larger "
+           "calibrate the hand-eye transform again, see that each pose is of its frame's moment, or give a larger "
            "--pose-error where the robot is known to be that far off",
            concat("frames share ", percent(as_given), " of their points as given, and ", percent(share), " after ",
                   tried.frames, " of ", evidence.frames.size(), " were registered to those before")}};
@@ -110,7 +110,7 @@ std::vector<Finding> check_misplaced(const Evidence& evidence, const Reading& re
         {"pose-errors",
          concat("frame ", name, " stands elsewhere than the others, by about ", in_metres(each.offset),
                 ", more than the ", pose_error, " m that registration searches"),
-         concat("take frame ", name, " anew or leave it out"),
+         concat("take frame ", name, " again or leave it out"),
          concat("as given, ", percent(each.before),
                 " of the points that it and another frame look at float in front of what the other sees; "
                 "moved back, ",
@@ -125,7 +125,7 @@ std::vector<Finding> check_misplaced(const Evidence& evidence, const Reading& re
 std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& reading, double pose_error) {
   if (evidence.frames.size() < 3) return {};
   const std::vector<double> shares = agreement_of_frames(evidence, reading);
-  const double typical = median(shares);
+  const double typical = median_of(shares);
   if (is_contradicted(consistency(evidence, reading))) return check_all(evidence, reading, pose_error, typical);
   // A frame from the other side of a thing shares little, too; one that is off is contradicted as well.
   const std::vector<Consistency> fits = consistency_of_frames(evidence, reading);
@@ -149,7 +149,7 @@ std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& 
   return {{"pose-errors",
            concat(off.size(), " of ", shares.size(), " frames stand elsewhere than the others, by more than the ",
                   pose_error, " m that registration searches: ", list_of(off)),
-           concat("take these frames anew or leave them out: ", list_of(off)),
+           concat("take these frames again or leave them out: ", list_of(off)),
            concat("they share at most ", percent(best),
                   " of their points with the others, also once registered; a "
                   "frame typically shares ",

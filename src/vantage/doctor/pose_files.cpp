@@ -85,12 +85,12 @@ std::vector<Finding> check_rotations(const std::vector<RawPose>& poses) {
     if (matrix.topLeftCorner<3, 3>().determinant() < 0) mirrored.push_back(&pose);
   }
   std::vector<Finding> findings;
-  const auto add = [&](const std::vector<const RawPose*>& bad, const std::string& wrong, const std::string& mend) {
-    if (!bad.empty()) findings.push_back({"rotation", wrong, mend, which(bad, poses.size())});
+  const auto add = [&](const std::vector<const RawPose*>& bad, const std::string& wrong, const std::string& fix) {
+    if (!bad.empty()) findings.push_back({"rotation", wrong, fix, which(bad, poses.size())});
   };
   add(broken, "the upper left 3x3 numbers are no rotation: columns not perpendicular, of unlike length, or not numbers",
       "write the pose as rotation and position, camera to world; check the file for lost or swapped numbers");
-  add(transposed, "the matrices are transposed: the position stands in the last row", "write them row by row");
+  add(transposed, "the matrices are transposed: the position is in the last row", "write them row by row");
   add(scaled, concat("the rotations are scaled by ", factor, ": their columns must have length 1"),
       concat("divide the upper left 3x3 numbers by ", factor, "; see whether the position is in metres"));
   add(mirrored, "the rotations are mirrored (left-handed): their determinant is -1, it must be 1",
@@ -98,7 +98,7 @@ std::vector<Finding> check_rotations(const std::vector<RawPose>& poses) {
   return findings;
 }
 
-std::optional<std::vector<RawPose>> mended(const std::vector<RawPose>& poses, int flipped) {
+std::optional<std::vector<RawPose>> fixed(const std::vector<RawPose>& poses, int flipped) {
   std::vector<RawPose> result;
   for (const RawPose& pose : poses) {
     if (!pose.matrix.allFinite()) return std::nullopt;

@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// A 4x4 matrix as it stands in a file, rigid or not.
+/// A 4x4 matrix as a file has it, rigid or not.
 struct RawPose {
   std::filesystem::path file;
   Eigen::Matrix4d matrix;
@@ -29,6 +29,6 @@ struct RawPose {
 
 /// One way to make a rigid motion of each matrix: unscaled, transposed back, and, where mirrored, with camera axis
 /// `flipped` (0 to 2) or, for 3, with the world's z turned round. Nothing where a matrix is no rotation at all.
-[[nodiscard]] std::optional<std::vector<RawPose>> mended(const std::vector<RawPose>& poses, int flipped);
+[[nodiscard]] std::optional<std::vector<RawPose>> fixed(const std::vector<RawPose>& poses, int flipped);
 
 }  // namespace vantage

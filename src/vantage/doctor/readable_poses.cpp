@@ -36,11 +36,11 @@ ReadablePoses::ReadablePoses(const fs::path& scans, const ScanFolderOptions& opt
   const int wanted = is_mirrored(poses) ? 4 : 1;
   ways_ = 0;
   for (int way = 0; way < wanted; ++way) {
-    const auto mended_poses = mended(poses, way);
-    if (!mended_poses) return;
+    const auto fixed_poses = fixed(poses, way);
+    if (!fixed_poses) return;
     if (copies_.empty()) copies_ = new_folder();
     fs::create_directory(copies_ / std::to_string(way));
-    for (const RawPose& pose : *mended_poses) {
+    for (const RawPose& pose : *fixed_poses) {
       write_pose(copies_ / std::to_string(way) / pose.file.filename(),
                  rigid_pose(pose.matrix, pose.file.string(), 0.05));
     }
@@ -58,7 +58,7 @@ ScanFolderOptions ReadablePoses::options(ScanFolderOptions options, int way) con
   return options;
 }
 
-std::string ReadablePoses::mend(int way) {
+std::string ReadablePoses::fix(int way) {
   if (way == 3)
     return "the frames agree: the world is mirrored; negate the z row of every matrix (or x, or y, but one)";
   return concat("negate the ",

@@ -62,7 +62,7 @@ std::vector<Hypothesis> with_axes(const Reading& base, Which which) {
       for (Pose& pose : each.reading.world_from_sensor) pose.linear() = pose.linear() * turn;
       each.wrong = concat("the poses are for a camera with ", axes_text(turn), name,
                           "; they must be for the optical axes x right, y down, z forward");
-      each.mend = concat("multiply every rotation from the right by ", rows_text(turn));
+      each.fix = concat("multiply every rotation from the right by ", rows_text(turn));
       hypotheses.push_back(std::move(each));
     }
   } while (std::next_permutation(order.begin(), order.end()));
@@ -80,7 +80,7 @@ std::vector<Hypothesis> inverted_poses_of_usual_axes(const Reading& base) {
     for (Hypothesis& each : with_axes(inverted.reading, Which::usual)) {
       each.check = inverted.check;
       each.wrong = inverted.wrong + "; and " + each.wrong;
-      each.mend = inverted.mend + ", then " + each.mend;
+      each.fix = inverted.fix + ", then " + each.fix;
       all.push_back(std::move(each));
     }
   }

@@ -21,8 +21,8 @@ std::vector<Hypothesis> shifted_times(const Reading& base) {
     const char* direction = shift > 0 ? "later" : "earlier";
     each.wrong = concat("the trajectory is shifted in time: each frame fits the pose of the frame ", frames,
                         frames == 1 ? " place " : " places ", direction);
-    each.mend = concat("compare the clocks of camera and robot; here the pose of a frame stands ", frames,
-                       frames == 1 ? " frame " : " frames ", direction, " than it");
+    each.fix = concat("compare the clocks of camera and robot; here the pose of a frame stands ", frames,
+                      frames == 1 ? " frame " : " frames ", direction, " than it");
     hypotheses.push_back(std::move(each));
   }
   return hypotheses;

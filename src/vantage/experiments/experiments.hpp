@@ -40,8 +40,8 @@ void describe(ExperimentOptions& o, Field&& field) {
 /// All runs of the experiments in one list.
 [[nodiscard]] std::vector<SweepRun> runs_of(const std::vector<Experiment>& experiments);
 
-/// Tables and figures of all experiments from the results of runs_of(). Runs that failed stand in a table of their own,
-/// `failures`, and experiments that too few runs are left of are named there too.
+/// Tables and figures of all experiments from the results of runs_of(). Runs that failed are listed in a table of their
+/// own, `failures`, and experiments that too few runs are left of are named there too.
 [[nodiscard]] std::vector<ExperimentReport::Part> report_parts(const std::vector<Experiment>& experiments,
                                                                const std::vector<RunResult>& results);
 

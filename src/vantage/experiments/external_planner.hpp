@@ -14,7 +14,7 @@ struct ExternalPlannerOptions {
   void validate() const;
 };
 
-/// A planner in another program, of any language. It is started once; for every choice it is told one line of JSON on
+/// A planner in another program, of any language. It is started once; for every choice it is given one line of JSON on
 /// its standard input (docs/new-utility.md):
 ///
 ///     {"map": "/tmp/vantage-xyz/map.nrrd", "current": [4x4], "scanned": [[4x4], ...], "camera": {...},

@@ -204,7 +204,7 @@ Utility known_greedy_utility(const SimulatedObject& object, const ReconstructOpt
 Utility known_optimum_utility(const SimulatedObject& object, const ReconstructOptions& options, double goal) {
   const auto scans = std::make_shared<const KnownScans>(known_scans(object, options));
   const Candidates candidates = options.candidate_views();
-  // A little above the goal, because the scans' coverage is told by other samples.
+  // A little above the goal, because the scans' coverage is measured by other samples.
   const std::vector<int> order =
       nearest_first(smallest_cover(*scans, options.initial_view, goal + 2e-4), candidates.views, candidates.center);
   const auto score = [scans, order](const Choice& choice) {

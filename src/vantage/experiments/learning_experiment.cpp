@@ -84,11 +84,12 @@ void add_estimates(ExperimentTable& table, double sigma, const std::vector<std::
   }
 }
 
-/// How much less each planner has covered after each scan than the one that was told, with the interval over the seeds.
+/// How much less each planner has covered after each scan than the one that knows the error, with the interval over the
+/// seeds.
 LineChart chart_behind_told(double sigma, const std::vector<std::vector<RunOutcome>>& runs) {
-  LineChart chart = chart_over_scans(fmt::format("error of {}: against the one that was told", centimetres(sigma)),
-                                     "coverage [points]");
-  // The one that was told too, as the line at zero, so that each planner looks as in the chart before.
+  LineChart chart = chart_over_scans(
+      fmt::format("error of {}: against the one that knows the error", centimetres(sigma)), "coverage [points]");
+  // The one that knows the error too, as the line at zero, so that each planner looks as in the chart before.
   for (std::size_t k = 0; k < planners.size(); ++k) {
     LineSeries series;
     series.name = planners[k];

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Kind = SweepMessage::Kind;
+using MessageKind = SweepMessage::Kind;
 
 constexpr std::chrono::milliseconds poll_alone{200}, poll_with_others{2};
 constexpr double seconds_between_reports = 1;
@@ -101,18 +101,18 @@ class Dispatcher {
   void handle(const Ranks::Message& received) {
     SweepMessage message = decode(received.bytes);
     switch (message.kind) {
-      case Kind::want:
+      case MessageKind::want:
         require(message.text == digest_, "rank ", received.from,
                 " has another list of runs than rank 0: start all ranks with the same program, options and objects");
         // Those that ask when nothing is left have been told to stop already, or will be.
-        if (!pending_.empty()) ranks_.send(received.from, encode({Kind::run, next(), {}, ""}));
+        if (!pending_.empty()) ranks_.send(received.from, encode({MessageKind::run, next(), {}, ""}));
         break;
-      case Kind::result:
+      case MessageKind::result:
         require(message.run < runs_.size(), "rank ", received.from, " sent run ", message.run, ": there are ",
                 runs_.size());
         note(message.run, std::move(message.result));
         break;
-      case Kind::bye:
+      case MessageKind::bye:
         ++said_bye_;
         break;
       default:
@@ -123,7 +123,7 @@ class Dispatcher {
   void tell_all_to_stop() {
     if (told_to_stop_) return;
     told_to_stop_ = true;
-    for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, encode({Kind::stop, 0, {}, ""}));
+    for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, encode({MessageKind::stop, 0, {}, ""}));
   }
 
   void report() {
@@ -162,20 +162,20 @@ void help_sweep(std::span<const SweepRun> runs, Ranks& ranks, const SweepControl
   LocalWorkers workers(runs, control.interrupted);
   std::size_t asked = 0;  // wants without an answer
   while (!workers.done()) {
-    for (; asked < workers.wanted(); ++asked) ranks.send(0, encode({Kind::want, 0, {}, digest}));
+    for (; asked < workers.wanted(); ++asked) ranks.send(0, encode({MessageKind::want, 0, {}, digest}));
     while (const auto message = ranks.receive()) {
       const SweepMessage order = decode(message->bytes);
-      if (order.kind == Kind::run) {
+      if (order.kind == MessageKind::run) {
         --asked;
         workers.assign(order.run);
-      } else if (order.kind == Kind::stop) {
+      } else if (order.kind == MessageKind::stop) {
         workers.close();
       }
     }
     for (LocalWorkers::Finished& each : workers.finished(poll_with_others))
-      ranks.send(0, encode({Kind::result, each.run, std::move(each.result), ""}));
+      ranks.send(0, encode({MessageKind::result, each.run, std::move(each.result), ""}));
   }
-  ranks.send(0, encode({Kind::bye, 0, {}, ""}));
+  ranks.send(0, encode({MessageKind::bye, 0, {}, ""}));
 }
 
 }  // namespace vantage

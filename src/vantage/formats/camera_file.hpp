@@ -44,7 +44,7 @@ class ResolutionError : public InputError {
 /// file or printed message); `.json` Open3D's PinholeCameraIntrinsic. Throws InputError naming the file, the field and
 /// what would be right.
 [[nodiscard]] Intrinsics read_intrinsics(const std::filesystem::path& path);
-/// The same from memory; `name` stands in errors.
+/// The same from memory; `name` is used in errors.
 [[nodiscard]] Intrinsics parse_intrinsics_text(std::string_view bytes, const std::string& name);
 [[nodiscard]] Intrinsics parse_intrinsics_yaml(std::string_view bytes, const std::string& name);
 [[nodiscard]] Intrinsics parse_intrinsics_json(std::string_view bytes, const std::string& name);

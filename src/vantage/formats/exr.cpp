@@ -20,8 +20,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in the file");
 
 constexpr std::uint32_t magic = 20000630;
-constexpr std::int64_t longest_side = 16384;
-constexpr std::uint64_t best_ratio = 1100;  // deflate packs at most 1032 bytes into one
+constexpr std::int64_t exr_longest_side = 16384;
+constexpr std::uint64_t exr_best_ratio = 1100;  // deflate packs at most 1032 bytes into one
 constexpr std::size_t most_channels = 64;
 constexpr std::size_t most_bytes_per_pixel = 64;
 
@@ -124,8 +124,8 @@ Resolution resolution_of(const ExrHeader& header, const std::string& name) {
   const Window& window = *header.data;
   const std::int64_t columns = std::int64_t{window.right} - window.left + 1;
   const std::int64_t rows = std::int64_t{window.bottom} - window.top + 1;
-  require(columns > 0 && rows > 0 && columns <= longest_side && rows <= longest_side, name, ": has ", columns, "x",
-          rows, " pixels; must have 1 to ", longest_side, " on each side");
+  require(columns > 0 && rows > 0 && columns <= exr_longest_side && rows <= exr_longest_side, name, ": has ", columns,
+          "x", rows, " pixels; must have 1 to ", exr_longest_side, " on each side");
   require(window == *header.display, name, ": holds only a part of its image; must be saved uncropped");
   return {static_cast<int>(columns), static_cast<int>(rows)};
 }
@@ -242,7 +242,7 @@ FloatImage decode_exr(std::string_view bytes, const std::string& name, std::int6
     if (i == chosen) offset_in_row = row_bytes;
     row_bytes += columns * header.channels[i].bytes();
   }
-  require(row_bytes * rows <= best_ratio * bytes.size(), name, ": ", columns, "x", rows,
+  require(row_bytes * rows <= exr_best_ratio * bytes.size(), name, ": ", columns, "x", rows,
           " pixels are announced, which ", bytes.size(), " bytes cannot hold; the file is cut off");
   require(row_bytes * rows / most_bytes_per_pixel <= static_cast<std::uint64_t>(most_pixels), name,
           ": its channels have ", row_bytes * rows, " bytes; must have at most ", most_bytes_per_pixel, " for each of ",

@@ -19,7 +19,7 @@ enum class MeshFormat { ply, obj, stl, off };
 /// repeated vertex are left out. Throws InputError naming the file and the place: empty, cut off or of another format;
 /// a coordinate that is not finite; an index out of range; no triangle, or none with an area; an absurd size.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
-/// The same from memory; `name` stands in errors.
+/// The same from memory; `name` is used in errors.
 [[nodiscard]] TriangleMesh parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 
 /// Binary little endian, float32, triangles as `list uchar int vertex_indices`; replaces the file atomically.

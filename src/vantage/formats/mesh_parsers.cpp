@@ -87,7 +87,7 @@ void append_faces(TriangleMesh& mesh, const PlyElement& faces, const std::string
   }
 }
 
-/// Strips of triangles, which share two corners with the one before and turn the other way every time; -1 starts anew.
+/// Strips of triangles, which share two corners with the one before and turn the other way every time; -1 starts again.
 void append_strips(TriangleMesh& mesh, const PlyElement& strips, const std::string& name) {
   const PlyColumn& corners = corner_list(strips, name);
   std::size_t i = 0;

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr int longest_side = 16384;
+constexpr int nrrd_longest_side = 16384;
 
 /// The numbers of a header field, however they are bracketed: "(0.02,0,0) (0,0.02,0) (0,0,0.02)".
 std::vector<double> numbers(const TextReader& text, std::string_view field, std::string_view value, std::size_t count) {
@@ -76,7 +76,7 @@ void read_field(const TextReader& text, std::string_view field, std::string_view
     header.has_encoding = true;
   } else if (field == "sizes") {
     const std::vector<double> n = numbers(text, field, value, 3);
-    const auto side = [&](std::size_t axis) { return whole(text, field, n[axis], 1, longest_side); };
+    const auto side = [&](std::size_t axis) { return whole(text, field, n[axis], 1, nrrd_longest_side); };
     header.sizes = Index3(side(0), side(1), side(2));
   } else if (field == "space directions") {
     header.length = voxel_length(text, value);
@@ -95,8 +95,8 @@ IndexBox read_enclosure(const TextReader& text, std::string_view value) {
   const std::vector<double> n = numbers(text, "enclosure", value, 6);
   IndexBox box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = whole(text, "enclosure", n[static_cast<std::size_t>(axis)], 0, longest_side - 1);
-    box.max[axis] = whole(text, "enclosure", n[static_cast<std::size_t>(axis) + 3], 0, longest_side - 1);
+    box.min[axis] = whole(text, "enclosure", n[static_cast<std::size_t>(axis)], 0, nrrd_longest_side - 1);
+    box.max[axis] = whole(text, "enclosure", n[static_cast<std::size_t>(axis) + 3], 0, nrrd_longest_side - 1);
   }
   return box;
 }
@@ -109,8 +109,8 @@ void read_scene(const TextReader& text, std::string_view value, NrrdHeader& head
   Index3& first = header.first.emplace();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
-    scene.size[a] = whole(text, "scene", n[axis], 1, longest_side);
-    first[a] = whole(text, "scene", n[axis + 3], 0, longest_side - 1);
+    scene.size[a] = whole(text, "scene", n[axis], 1, nrrd_longest_side);
+    first[a] = whole(text, "scene", n[axis + 3], 0, nrrd_longest_side - 1);
     scene.min[a] = n[axis + 6];
   }
 }

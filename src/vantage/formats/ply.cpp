@@ -65,7 +65,7 @@ std::size_t size_of(Type type) {
 
 enum class Encoding { ascii, little_endian, big_endian };
 
-/// How the values of a column stand in the file.
+/// How the file stores the values of a column.
 struct Layout {
   Type count_type = Type::uint8;  // lists only
   Type type = Type::float32;

@@ -12,8 +12,8 @@
 namespace vantage {
 namespace {
 
-constexpr png_uint_32 longest_side = 16384;
-constexpr std::size_t best_ratio = 1100;  // deflate packs at most 1032 bytes into one
+constexpr png_uint_32 png_longest_side = 16384;
+constexpr std::size_t png_best_ratio = 1100;  // deflate packs at most 1032 bytes into one
 
 /// What the callbacks of libpng need. libpng reports errors by longjmp, so everything that owns memory lives here and
 /// not on the stack of the functions that are jumped out of.
@@ -54,7 +54,7 @@ bool succeeds(Codec& codec, void (*step)(Codec&)) {
 
 void read_header(Codec& codec) {
   png_set_read_fn(codec.png, &codec, on_read);
-  png_set_user_limits(codec.png, longest_side, longest_side);
+  png_set_user_limits(codec.png, png_longest_side, png_longest_side);
   // Texts and colour profiles say nothing about depth, and a thousand of them unpack to 8 MB each.
   png_set_keep_unknown_chunks(codec.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(codec.png, codec.info);
@@ -142,7 +142,7 @@ void open(Reader& reader, std::string_view bytes, const std::string& name) {
   const std::size_t columns = png_get_image_width(reader.png, reader.info);
   const std::size_t rows = png_get_image_height(reader.png, reader.info);
   const std::size_t bits = png_get_bit_depth(reader.png, reader.info) * png_get_channels(reader.png, reader.info);
-  if (columns * rows * bits / 8 > best_ratio * bytes.size()) {
+  if (columns * rows * bits / 8 > png_best_ratio * bytes.size()) {
     throw InputError(fmt::format("{}: {}x{} pixels are announced, which {} bytes cannot hold; the file is cut off",
                                  name, columns, rows, bytes.size()));
   }

@@ -35,8 +35,8 @@ struct CloudFile {
 /// or binary_compressed) or text with `x y z` (.xyz, further columns are ignored) or `x y z nx ny nz` (.xyzn) per line.
 /// Throws InputError naming the file and the place: empty, cut off, of another format, no number, no point at all.
 [[nodiscard]] CloudFile read_cloud(const std::filesystem::path& path);
-/// The same from memory; `name` stands in errors. Throws InputError where it has more than `most_values` numbers, those
-/// of fields that are not used among them; compressed files are asked before memory is taken for them.
+/// The same from memory; `name` is used in errors. Throws InputError where it has more than `most_values` numbers,
+/// those of fields that are not used among them; compressed files are asked before memory is taken for them.
 [[nodiscard]] CloudFile parse_cloud(std::string_view bytes, CloudFormat format, const std::string& name,
                                     std::size_t most_values = std::numeric_limits<std::size_t>::max());
 

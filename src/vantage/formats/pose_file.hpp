@@ -22,7 +22,7 @@ namespace vantage {
 [[nodiscard]] Pose read_pose(const std::filesystem::path& path);
 /// The same, but nothing for a matrix with a number that is not finite, as datasets write where tracking was lost.
 [[nodiscard]] std::optional<Pose> read_pose_unless_lost(const std::filesystem::path& path);
-/// The same from memory; `name` stands in errors.
+/// The same from memory; `name` is used in errors.
 [[nodiscard]] Pose parse_pose_text(std::string_view bytes, const std::string& name);
 [[nodiscard]] Pose parse_pose_json(std::string_view bytes, const std::string& name);
 

@@ -16,8 +16,8 @@ struct IntegrationReport {
 
 /// Updates the labels with one scan (paper, section 4; spec, section 1), in passes over the whole scan: voxels of hits
 /// become occupied; voxels that a ray crosses before its end become empty; unmarked voxels behind a hit become
-/// occluded; occplane follows. "Before" and "behind" are told by the steps from the camera's voxel, which grow by one
-/// per crossing. This is the definition: exact rays through all voxels. Also serves sensors without a pinhole.
+/// occluded; occplane follows. "Before" and "behind" are decided by the steps from the camera's voxel, which grow by
+/// one per crossing. This is the definition: exact rays through all voxels. Also serves sensors without a pinhole.
 ///
 /// By the rule `evidence` points count as support (struct VoxelEvidence), and a voxel becomes occupied where they are
 /// more than a stray one and no more scans looked through it than saw it. A scan looks through a touched voxel where at

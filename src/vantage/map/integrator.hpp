@@ -7,7 +7,7 @@
 namespace vantage {
 
 /// Where `integrate` takes integrate_exactly: the pixels are so coarse that there are fewer rays than voxels, or the
-/// camera stands in the enclosure or so close that the whole image may see one voxel.
+/// camera is inside the enclosure or so close that the whole image may see one voxel.
 [[nodiscard]] bool rays_are_faster(const VoxelMap& map, const RangeCamera& camera, const View& view);
 
 /// Integrates pinhole scans voxel by voxel instead of ray by ray, with the same result as integrate_exactly to the

@@ -18,7 +18,7 @@ struct CubeEdge {
   return {from, from | (std::size_t{1} << axis)};
 }
 
-/// The sheets in which a surface passes a cube, for each of the 256 ways in which corners can be inside (bit k: corner
+/// The sheets in which a surface passes a cube, for each of the 256 cases in which corners can be inside (bit k: corner
 /// k is inside): which sheet crosses which edge. On faces with inside corners across from each other the sheets keep
 /// these apart, in both cubes alike, so that sheets always fit together (the dual of marching cubes, Nielson 2004).
 struct CubePatches {

@@ -21,7 +21,7 @@ void ScanPlanningOptions::validate_without_commands() const {
   require(
       !planning.learns_error(), "believed-error = ", planning.believed_error.value_or(""),
       ": scans in a folder do not say where the sensor was sent; give the deviations as SX,SY,SZ, or use a session, "
-      "which is told");
+      "which is given");
   validate();
 }
 

@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-std::string frame_name(std::string name) {
+std::string ros_frame_name(std::string name) {
   while (!name.empty() && name.front() == '/') name.erase(0, 1);
   return name;
 }
@@ -36,7 +36,7 @@ Pose read_rigid(MessageReader& reader) {
 RosPose read_transform(MessageReader& reader) {
   RosPose pose;
   pose.header = read_header(reader);
-  pose.child = frame_name(reader.text());
+  pose.child = ros_frame_name(reader.text());
   pose.parent_from_child = read_rigid(reader);
   return pose;
 }
@@ -49,7 +49,7 @@ RosHeader read_header(MessageReader& reader) {
   const std::int64_t seconds =
       reader.serialization() == Serialization::ros1 ? std::int64_t{reader.u32()} : std::int64_t{reader.i32()};
   header.stamp_ns = seconds * 1'000'000'000 + std::int64_t{reader.u32()};
-  header.frame_id = frame_name(reader.text());
+  header.frame_id = ros_frame_name(reader.text());
   return header;
 }
 
@@ -130,7 +130,7 @@ RosPose read_pose_message(MessageReader& reader, std::string_view type) {
   if (type == "geometry_msgs/TransformStamped") return read_transform(reader);
   RosPose pose;
   pose.header = read_header(reader);
-  if (type == "nav_msgs/Odometry") pose.child = frame_name(reader.text());
+  if (type == "nav_msgs/Odometry") pose.child = ros_frame_name(reader.text());
   pose.parent_from_child = read_rigid(reader);
   return pose;
 }

@@ -71,7 +71,8 @@ std::vector<PlanePair> IcpLevel::pairs(const Pose& world_from_sensor, double max
 IcpResult align(const IcpLevel& level, const Pose& start, const Pose& believed, const MotionFrame& frame,
                 const IcpSettings& settings) {
   constexpr std::size_t least_pairs = 10;
-  constexpr int settled = 5;  // iterations after which no direction changes sides, lest the pose swing for ever
+  constexpr int settled =
+      5;  // iterations after which no direction changes sides, so that the pose does not swing for ever
   const double still = 1e-3 * level.cell();  // a step below this is no progress
   // Noise hands points from surfel to surfel and back for ever; steps so far below a surfel's size are nothing but
   // that.

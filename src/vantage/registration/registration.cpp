@@ -179,7 +179,7 @@ class Search {
     }
   }
 
-  /// Share of the scan on the model, less what stands in free space; -1 where the pose is implausibly far off.
+  /// Share of the scan on the model, less what is in free space; -1 where the pose is implausibly far off.
   [[nodiscard]] double score(const IcpLevel& level, const Pose& world_from_sensor) const {
     if (moved(world_from_sensor) > farthest()) return -1;
     return agreement(level, world_from_sensor).score - free_space_.share(world_from_sensor);

@@ -104,7 +104,7 @@ class ModelSurface {
 
 /// Registers a scan (points and normals in the sensor frame) against the model so far: point-to-plane ICP from the
 /// believed pose and from poses around it, coarse to fine, with a robust kernel. The result has the same bits for any
-/// number of threads. Throws InputError for options out of range; everything about the data is told by the verdict.
+/// number of threads. Throws InputError for options out of range; everything about the data is reported by the verdict.
 [[nodiscard]] Registration register_scan(const ModelSurface& model, const PointCloud& scan_in_sensor,
                                          const Pose& believed_world_from_sensor,
                                          const RegistrationOptions& options = {});

@@ -10,8 +10,8 @@
 namespace vantage {
 namespace {
 
-constexpr double angle_tolerance = 1e-3;  // radians that a view may be turned off, and past a limit
-constexpr double largest_step = 0.02;     // radians between places of a path
+constexpr double turn_tolerance = 1e-3;  // radians that a view may be turned off, and past a limit
+constexpr double largest_step = 0.02;    // radians between places of a path
 
 class TurntableMobility : public Mobility {
  public:
@@ -130,12 +130,12 @@ std::optional<std::string> Turntable::why_beyond_limits(const View& view) const 
   }
   const double off =
       rotation_angle(look_at(view.position(), options_.center).linear(), view.world_from_sensor.linear());
-  if (off > angle_tolerance) {
+  if (off > turn_tolerance) {
     return concat("the sensor looks at the arc's center and cannot turn by ", degrees(off), " degrees");
   }
   const Eigen::Vector2d joints = joints_of(view);
   const auto is_within = [](double angle, const Eigen::Vector2d& limits) {
-    return angle >= radians(limits[0]) - angle_tolerance && angle <= radians(limits[1]) + angle_tolerance;
+    return angle >= radians(limits[0]) - turn_tolerance && angle <= radians(limits[1]) + turn_tolerance;
   };
   if (!is_within(joints[1], options_.arc)) {
     return concat("elevation ", degrees(joints[1]), " degrees is beyond the arc ", options_.arc[0], " .. ",

@@ -19,7 +19,7 @@ constexpr std::size_t max_cloud_points = 150000;
 constexpr std::size_t max_triangles = 60000;
 
 template <class T>
-Json or_null(const std::optional<T>& value) {
+Json json_or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
@@ -57,8 +57,8 @@ std::string_view state_name(RunData::State state) {
 Json meta_json(const RunData& run) {
   Json options = Json::object();
   for (const auto& [name, value] : run.options) options[name] = value;
-  return {{"command", run.command},        {"object", run.object},      {"program", run.program},
-          {"options", std::move(options)}, {"seed", or_null(run.seed)}, {"state", state_name(run.state)},
+  return {{"command", run.command},        {"object", run.object},           {"program", run.program},
+          {"options", std::move(options)}, {"seed", json_or_null(run.seed)}, {"state", state_name(run.state)},
           {"simulated", run.simulated}};
 }
 
@@ -106,9 +106,12 @@ Json candidates_json(const RunData& run) {
 Json summary_json(const RunData& run) {
   if (run.scans.empty()) return nullptr;
   const ScanRecord& last = run.scans.back().record;
-  return {{"views", run.scans.size()},          {"occupied", last.labels.occupied},
-          {"mean_quality", last.mean_quality},  {"distance", last.distance},
-          {"coverage", or_null(last.coverage)}, {"coverage_all", or_null(last.coverage_all)}};
+  return {{"views", run.scans.size()},
+          {"occupied", last.labels.occupied},
+          {"mean_quality", last.mean_quality},
+          {"distance", last.distance},
+          {"coverage", json_or_null(last.coverage)},
+          {"coverage_all", json_or_null(last.coverage_all)}};
 }
 
 }  // namespace
@@ -132,7 +135,7 @@ Json plan_json(const CandidatePlan& plan) {
     infeasible.push_back(static_cast<std::uint8_t>(1 + place));
   }
   const auto score = [](const Evaluation& e) { return e.score; };
-  return {{"chosen", or_null(plan.chosen)},
+  return {{"chosen", json_or_null(plan.chosen)},
           {"utility", floats_json(all, [](const Evaluation& e) { return e.utility; })},
           {"convolved", plan.convolved ? floats_json(all, score) : Json(nullptr)},
           {"n_oc", counts_json(all, [](const Evaluation& e) { return e.seen.occupied; })},

@@ -43,8 +43,8 @@ class Session {
   static void create(const std::filesystem::path& folder, const ScanPlanningOptions& options);
   /// Opens a session and merges its scans again where they were registered before. Throws InputError where it is none,
   /// Error where another process has it open.
-  /// `on_scan` hears of the model after each scan, those merged again while opening too, in the thread that merges;
-  /// next() and status() know of the scan by then. What it throws becomes a warning: the model stays as it is.
+  /// `on_scan` is called with the model after each scan, those merged again while opening too, in the thread that
+  /// merges; next() and status() know of the scan by then. What it throws becomes a warning: the model stays as it is.
   using OnScan = std::function<void(const SessionModel&)>;
   explicit Session(
       const std::filesystem::path& folder, OnScan on_scan = [](const SessionModel&) {});

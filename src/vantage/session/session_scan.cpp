@@ -94,7 +94,7 @@ std::vector<Value> take(std::string_view& bytes, std::size_t count, const std::s
   return values;
 }
 
-Json camera_json(const RangeCamera& camera) {
+Json scan_camera_json(const RangeCamera& camera) {
   return {{"columns", camera.resolution.columns},
           {"rows", camera.resolution.rows},
           {"left", camera.left},
@@ -167,7 +167,7 @@ std::string scan_bytes(const SessionScan& scan) {
   if (scan.commanded) header["commanded"] = pose_columns(scan.commanded->world_from_sensor);
   std::string arrays;
   if (const auto* image = std::get_if<ImageScan>(&scan.scan)) {
-    header["camera"] = camera_json(image->image.camera);
+    header["camera"] = scan_camera_json(image->image.camera);
     append(arrays, image->image.depth);
   } else {
     const auto& points = std::get<PointScan>(scan.scan);
