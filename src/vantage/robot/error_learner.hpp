@@ -19,8 +19,8 @@ struct ErrorLearnerOptions {
 
 /// Learns how the robot errs from the differences between commanded and registered poses (docs/positioning-error.md):
 /// a normal-inverse-Wishart posterior for the position and one for the orientation, which are taken as independent.
-/// Registrations that are wildly wrong are recognised by the median of all differences, axis by axis, and left out; since all
-/// are looked at again each time, one that was let in early drops out when others contradict it.
+/// Registrations that are wildly wrong are recognised by the median of all differences, axis by axis, and left out;
+/// since all are looked at again each time, one that was let in early drops out when others contradict it.
 class ErrorLearner {
  public:
   explicit ErrorLearner(const ErrorLearnerOptions& options = {});

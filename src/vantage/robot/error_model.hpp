@@ -33,7 +33,8 @@ class ConstantError : public PoseErrorModel {
 };
 
 /// Grows with the length d of the move: the deviation along each entry is a + b d, as for a gantry that slips or a
-/// robot that adds up its steps. After the scan the pose is known again by registration, so that d is counted from there.
+/// robot that adds up its steps. After the scan the pose is known again by registration, so that d is counted from
+/// there.
 class GrowingError : public PoseErrorModel {
  public:
   /// `base`: mean and covariance of a move of length 0; its covariance must be diagonal. `deviation_per_metre`: b, in

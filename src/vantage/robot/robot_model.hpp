@@ -65,7 +65,8 @@ class RobotModel {
   [[nodiscard]] virtual std::optional<RobotState> home() const { return std::nullopt; }
   /// The state behind a view where only the view is known; nothing where the robot cannot be there.
   [[nodiscard]] virtual std::optional<RobotState> state_at(const View& view) const { return RobotState{view}; }
-  /// Where the robot is thought to be when another robot or a person put the sensor to `view`, which it cannot hold itself.
+  /// Where the robot is thought to be when another robot or a person put the sensor to `view`, which it cannot hold
+  /// itself.
   [[nodiscard]] virtual RobotState state_near(const View& view) const { return home().value_or(RobotState{view}); }
   /// What costs are counted in: "m" or "rad".
   [[nodiscard]] virtual std::string cost_unit() const { return "m"; }

@@ -39,7 +39,8 @@ struct ErringRobot {
   const ReachOptions& reach;
 };
 
-/// Evaluates the strongest of the ranked views again from sampled poses around them and ranks those by expected utility.
+/// Evaluates the strongest of the ranked views again from sampled poses around them and ranks those by expected
+/// utility.
 [[nodiscard]] std::vector<Evaluation> rank_by_samples(const ViewEvaluation& problem, std::vector<Evaluation> ranked,
                                                       const ErringRobot& robot, const ExpectationOptions& options);
 
