@@ -44,7 +44,7 @@ endfunction()
 function(vantage_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${VANTAGE_UNITY} UNITY_BUILD_BATCH_SIZE 12)
   # g++ takes a .cpp that is included for a header, whose classes must not have members of types that only it knows.
-  target_compile_options(${target} PRIVATE $<$<BOOL:${VANTAGE_UNITY}>:-Wno-subobject-linkage>)
+  target_compile_options(${target} PRIVATE $<$<BOOL:${VANTAGE_UNITY}>:-Wno-subobject-linkage;-Wno-shadow;-Wshadow=local>)
   foreach(folder IN LISTS ARGN)
     file(GLOB alone CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/vantage/${folder}/*.cpp)
     set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
@@ -54,10 +55,11 @@ Mask confident_pixels(const fs::path& image, double least, Resolution resolution
 
 ConfidenceChoice confidence_choice(const std::string& text) {
   const std::size_t comma = text.rfind(',');
-  const auto least = comma == std::string::npos ? std::nullopt : to_double(trimmed(text.substr(comma + 1)));
-  require(comma != 0 && least && std::isfinite(*least), "confidence = ", in_quotes(text),
+  double least = std::numeric_limits<double>::quiet_NaN();
+  if (comma != std::string::npos) least = to_double(trimmed(text.substr(comma + 1))).value_or(least);
+  require(comma != 0 && std::isfinite(least), "confidence = ", in_quotes(text),
           ": must be FOLDER,LEAST, like confidence,2");
-  return {text.substr(0, comma), *least};
+  return {text.substr(0, comma), least};
 }
 
 void require_pixel_choices(const fs::path& folder, const std::vector<std::string>& names,

@@ -1,4 +1,5 @@
 #include "vantage/core/error.hpp"
+#include "vantage/options/options.hpp"
 #include "vantage/runs/run_data.hpp"
 
 namespace vantage {
@@ -24,8 +25,10 @@ struct OptionTexts {
       std::string list;
       for (Eigen::Index i = 0; i < value.size(); ++i) list += concat(i == 0 ? "" : ",", value[i]);
       return list;
-    } else {
+    } else if constexpr (std::is_arithmetic_v<T>) {
       return concat(value);
+    } else {
+      return OptionValue<T>::print(value);
     }
   }
 };

@@ -147,7 +147,7 @@ std::string views_csv(const std::vector<ScanRecord>& scans) {
   constexpr std::array<const char*, 7> parts{"x", "y", "z", "qx", "qy", "qz", "qw"};
   std::string header;
   std::string rows;
-  const Json names = scan_json({});
+  const Json names = scan_json(ScanRecord());
   for (const auto& [key, value] : names.items()) {
     if (!header.empty()) header += ',';
     if (!value.is_array()) {
