@@ -3,7 +3,9 @@
 add_library(vantage_build_settings INTERFACE)
 target_compile_features(vantage_build_settings INTERFACE cxx_std_20)
 target_compile_options(vantage_build_settings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  -Wall -Wextra -Wpedantic -Wconversion
+  # Joined files see the names of each other, so that only shadowing within one function means anything.
+  $<IF:$<BOOL:${VANTAGE_UNITY}>,-Wshadow=local,-Wshadow>
   # Fused multiply-add changes last bits; without it every processor computes the same map.
   -ffp-contract=off
   $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
@@ -44,7 +46,7 @@ endfunction()
 function(vantage_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${VANTAGE_UNITY} UNITY_BUILD_BATCH_SIZE 12)
   # g++ takes a .cpp that is included for a header, whose classes must not have members of types that only it knows.
-  target_compile_options(${target} PRIVATE $<$<BOOL:${VANTAGE_UNITY}>:-Wno-subobject-linkage;-Wno-shadow;-Wshadow=local>)
+  target_compile_options(${target} PRIVATE $<$<BOOL:${VANTAGE_UNITY}>:-Wno-subobject-linkage>)
   foreach(folder IN LISTS ARGN)
     file(GLOB alone CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/vantage/${folder}/*.cpp)
     set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
