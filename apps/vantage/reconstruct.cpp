@@ -61,7 +61,7 @@ RunDescription describe_run(const ReconstructRequest& request, const std::string
   description.truth = object.scanner().mesh();
   description.seed = request.options.seed;
   if (request.report) description.surface = request.surface;
-  description.sensor = sensor_with({request.options.depth_noise.x(), request.options.depth_noise.y()});
+  description.sensor = request.options.sensor_model();
   return description;
 }
 

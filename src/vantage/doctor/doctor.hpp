@@ -14,9 +14,9 @@
 namespace vantage {
 
 struct DoctorOptions {
-  ScanFolderOptions folder;                          // how the scans would be read
-  std::optional<Eigen::Matrix<double, 6, 1>> box;    // where the object should be: cx cy cz sx sy sz, metres
-  double pose_error = ScanPlanOptions{}.pose_error;  // metres; what registration would search
+  ScanFolderOptions folder;                                 // how the scans would be read
+  std::optional<Eigen::Matrix<double, 6, 1>> box;           // where the object should be: cx cy cz sx sy sz, metres
+  double pose_error = ScanPlanOptions::default_pose_error;  // metres; what registration would search
 
   /// Throws InputError naming the option.
   void validate() const;

@@ -312,7 +312,7 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
   return parts;
 }
 
-ExperimentTable times_table(const Comparison& comparison, const Outcomes& outcomes) {
+ExperimentTable compared_times_table(const Comparison& comparison, const Outcomes& outcomes) {
   ExperimentTable table;
   table.name = "compare-times";
   table.content = ExperimentContent::times;
@@ -343,7 +343,7 @@ Experiment comparison(const ExperimentOptions& options) {
   const Comparison compared = add_runs(experiment, options);
   experiment.report = [compared](const Outcomes& outcomes) {
     std::vector<ExperimentReport::Part> parts = report_of(compared, outcomes);
-    parts.emplace_back(times_table(compared, outcomes));
+    parts.emplace_back(compared_times_table(compared, outcomes));
     return parts;
   };
   return experiment;

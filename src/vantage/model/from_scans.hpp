@@ -16,8 +16,9 @@ struct ScanPlanOptions : SensorOptions {
   int views = 80;                    // on the view sphere
   std::string registration = "icp";  // icp or none
   double pose_angle_error = 5;       // degrees
-  double pose_error = 0.05;          // metres; poses are off by no more than this
-  double surroundings = 0.5;         // around the box, as a share of its longest side: what registration may use
+  static constexpr double default_pose_error = 0.05;  // metres
+  double pose_error = default_pose_error;             // metres; poses are off by no more than this
+  double surroundings = 0.5;  // around the box, as a share of its longest side: what registration may use
 
   void validate() const;
 };
