@@ -221,14 +221,16 @@ void SurfaceFrame::find_planes(const RangeImage& image, const SurfaceNoise& nois
       const Vec3 ray = Vec3(rays_.x(column), rays_.y(row), 1).normalized();
       Vec3 normal = planes.normal(column, row);
       double cosine = -normal.dot(ray);
-      if (!(cosine > 0)) {  // no plane, or one that the sensor would see from behind
+      const bool has_plane = cosine > 0;
+      if (!has_plane) {  // no plane, or one that the sensor would see from behind
         normal = -ray;
         cosine = cosine_without_normal;
       }
       const double sigma = noise.sigma(static_cast<double>(pixel.depth), cosine);
       pixel.sigma = static_cast<float>(sigma);
       pixel.normal = normal.cast<float>();
-      pixel.weight = static_cast<float>(std::max(cosine, least_cosine) / (sigma * sigma));
+      // Beside a jump a pixel says how far free space reaches, and nothing about the direction of a surface.
+      pixel.weight = has_plane ? static_cast<float>(std::max(cosine, least_cosine) / (sigma * sigma)) : 0;
     }
   });
 }

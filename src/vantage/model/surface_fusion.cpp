@@ -103,6 +103,7 @@ class FrameFuser {
       if (pixel.nearest - place.z() > band) look_through(block, node);
       return;
     }
+    if (pixel.weight == 0) return;
     const float certainty = std::min(1.0F, (band + distance) / (band - 2 * pixel.sigma));
     block.add(node, {distance, certainty * pixel.weight, world_from_sensor_ * pixel.normal, certainty, number_});
   }

@@ -38,7 +38,7 @@ SensorModel SurfaceVolume::estimate_sensor(const RangeImage& image) {
 
 void SurfaceVolume::fuse_image(const RangeImage& image, const View& view, const SurfaceNoise& noise,
                                std::uint16_t number) {
-  constexpr double least_sigma_in_pixels = 0.02;  // even of a perfect sensor
+  constexpr double least_sigma_in_pixels = 0.29;  // even of a perfect sensor: a place within its pixel, 1/sqrt(12)
   if (!blocks_) {
     const auto spacing = pixel_spacing(image, view, region_);
     if (!spacing) return;
