@@ -28,6 +28,8 @@ void SurfaceSide::add(const DistanceSample& sample) {
 }
 
 void SurfaceBlock::add(std::size_t node, const DistanceSample& sample) {
+  // At the end of the band behind a surface a sample supports nothing; its weight may round to zero.
+  if (!(sample.weight > 0) || sample.certainty * SurfaceNode::units_of_support < 1) return;
   SurfaceNode& at = nodes[node];
   at.note_frame(sample, frames_at(node));
   if (at.side.is_seen()) {

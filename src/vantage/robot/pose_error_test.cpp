@@ -101,7 +101,9 @@ TEST(PoseError, RefusesErrorsThatNoRobotHas) {
     EXPECT_THROW(error.validate(), InputError);
     error = {};
     error.covariance(2, 2) = absurd;
-    if (absurd > 1e12) EXPECT_THROW(error.validate(), InputError);
+    if (absurd > 1e12) {
+      EXPECT_THROW(error.validate(), InputError);
+    }
     error = {};
     error.covariance(4, 4) = absurd;
     EXPECT_THROW(error.validate(), InputError);
