@@ -43,7 +43,7 @@ TEST(MessageReader, WhatEndsTooEarlyIsRefused) {
 }
 
 TEST(RosImage, RowsMayBeLongerThanTheirPixels) {
-  RosImage image{{}, 2, 2, "16UC1", false, 6, {}};
+  RosImage image{RosHeader{}, 2, 2, "16UC1", false, 6, {}};
   const std::string data = bytes({1, 0, 2, 1, 99, 99, 3, 0, 4, 0});
   image.data = data;
   EXPECT_THAT(std::get<Gray16>(depth_of(image, "m")).values, ElementsAre(1, 258, 3, 4));
@@ -61,7 +61,7 @@ TEST(RosImage, RowsMayBeLongerThanTheirPixels) {
 
 TEST(RosImage, ColorsComeInTheirOrder) {
   const std::string data = bytes({1, 2, 3, 4, 5, 6});
-  const RosImage image{{}, 1, 2, "bgr8", false, 6, data};
+  const RosImage image{RosHeader{}, 1, 2, "bgr8", false, 6, data};
   const ColorImage color = color_of(image, "m");
   EXPECT_EQ(color.pixels.at(1), (std::array<std::uint8_t, 3>{6, 5, 4}));
 }
@@ -79,7 +79,7 @@ TEST(RosImage, InverseDepthsAreUnpacked) {
   // 32FC1 as RVL: depth = a / (number - b) with a = 100, b = 10; one pixel with the number 60 is 2 m away.
   const std::string data =
       bytes({0, 0, 0, 0, 0, 0, 0xC8, 0x42, 0, 0, 0x20, 0x41, 1, 0, 0, 0, 1, 0, 0, 0, 0x00, 0x10, 0x8F, 0x01});
-  const RosCompressedImage image{{}, "32FC1; compressedDepth rvl", data};
+  const RosCompressedImage image{RosHeader{}, "32FC1; compressedDepth rvl", data};
   EXPECT_THAT(std::get<FloatImage>(depth_of(image, "m")).values, ElementsAre(2.0F));
 }
 
@@ -117,7 +117,7 @@ TEST(RosImage, PartsAndBinnedPixelsOfTheSensorCount) {
 }
 
 TEST(RosImage, CloudsMayBeOfDoublesInEitherByteOrder) {
-  RosPointCloud cloud{{}, 1, 2, {{"z", 8, 8}, {"x", 0, 7}, {"y", 4, 7}}, true, 16, 32, {}};
+  RosPointCloud cloud{RosHeader{}, 1, 2, {{"z", 8, 8}, {"x", 0, 7}, {"y", 4, 7}}, true, 16, 32, {}};
   const std::string point = bytes({0x3F, 0x80, 0, 0, 0x40, 0, 0, 0, 0x40, 8, 0, 0, 0, 0, 0, 0});
   const std::string data = point + std::string(16, '\0');  // the second one was not measured
   cloud.data = data;
