@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vantage/core/parallel.hpp"
+#include "vantage/doctor/agreement.hpp"
 
 namespace vantage {
 namespace {
@@ -135,6 +136,9 @@ class ComparedFrames {
 double Consistency::contradiction() const { return looked_at() > 0 ? (floats + backwards) / looked_at() : 0; }
 
 Consistency consistency(const Evidence& evidence, const Reading& reading) {
+  const bool sees_nothing = std::all_of(evidence.frames.begin(), evidence.frames.end(),
+                                        [](const FrameEvidence& frame) { return frame.map.empty(); });
+  if (sees_nothing) return {.agrees = agreement(evidence, reading)};
   const ComparedFrames company(evidence, reading);
   const std::size_t count = evidence.frames.size();
   std::vector<Counts> counts(count);

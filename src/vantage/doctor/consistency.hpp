@@ -20,7 +20,8 @@ struct Consistency {
 };
 
 /// How well the frames fit each other when they are read in one way. Tolerances are in proportion to depth, so that a
-/// reading that makes the world small gains nothing. The same for any number of threads.
+/// reading that makes the world small gains nothing. Of line scanners, which see in no one direction, agreement() alone
+/// speaks. The same for any number of threads.
 [[nodiscard]] Consistency consistency(const Evidence& evidence, const Reading& reading);
 /// The same for each frame with the others, both ways.
 [[nodiscard]] std::vector<Consistency> consistency_of_frames(const Evidence& evidence, const Reading& reading);

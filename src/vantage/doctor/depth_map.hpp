@@ -16,6 +16,8 @@ class DepthMap {
   /// Of points in the sensor's frame, z forward, in cells wide enough to have one where there is a surface.
   explicit DepthMap(const std::vector<Vec3>& points);
 
+  [[nodiscard]] bool empty() const { return columns_ == 0; }
+
   struct Range {
     double least = 0, most = 0;  // as read, both infinite where the sensor met nothing
   };

@@ -61,7 +61,7 @@ TEST_P(DoctorOnRealFrames, FindsAFrameThatIsOffAlone) {
   reading.depth_range = {0, 1e6};
   reading.no_return = 65535;
   reading.poses = real.poses;
-  Evidence evidence = gather(open_scans(folder, reading), 4.5, [](std::size_t, std::size_t) {});
+  Evidence evidence = gather(open_scans(folder, reading), 4.5, reading, [](std::size_t, std::size_t) {});
   int found = 0, others = 0, cases = 0;
   for (FrameEvidence& frame : evidence.frames) {
     const Pose truth = frame.world_from_sensor;

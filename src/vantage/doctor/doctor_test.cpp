@@ -52,7 +52,8 @@ Diagnosis diagnose(const SetOnDisk& set, const DoctorOptions& options) {
 TEST(Doctor, PassesAGoodSetAndFindsEveryMistakeMadeInIt) {
   const TestFolder images;
   const SetOnDisk good = simulated_set(images.path());
-  const DoctorOptions options;
+  DoctorOptions options;
+  options.folder.no_return = 65535;
   const Diagnosis healthy = diagnose(good, options);
   for (const Finding& finding : healthy.findings) ADD_FAILURE() << finding.check << ": " << finding.wrong;
   EXPECT_EQ(healthy.frames, 18U);
@@ -78,15 +79,17 @@ TEST(Doctor, FindsASensorThatNeverReportsNoReturn) {
   const Diagnosis diagnosis = diagnose(set, {});
   ASSERT_EQ(diagnosis.findings.size(), 1U);
   EXPECT_EQ(diagnosis.findings[0].check, "no-return");
+  EXPECT_TRUE(diagnosis.healthy()) << "good to know, but nothing is wrong";
 }
 
 TEST(Doctor, TellsHowABoxWasMeant) {
   const TestFolder images;
   const SetOnDisk set = simulated_set(images.path());
   DoctorOptions millimetres;
+  millimetres.folder.no_return = 65535;
   millimetres.box.emplace();
   *millimetres.box << 100, 0, 2000, 900, 900, 3900;
-  DoctorOptions corners;
+  DoctorOptions corners = millimetres;
   corners.box.emplace();
   *corners.box << -0.6, -0.6, -3, 0.6, 0.6, 0.4;  // taken for center and size it lies below everything
   const Diagnosis first = diagnose(set, millimetres), second = diagnose(set, corners);

@@ -114,8 +114,10 @@ Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& o
       frame.cloud = thinned(*image);
       frame.map = DepthMap(image->image);
     } else {
-      frame.cloud = thinned(std::get<PointScan>(scan));
-      frame.map = DepthMap(frame.cloud.points);
+      const auto& lines = std::get<PointScan>(scan);
+      frame.cloud = thinned(lines);
+      // Of a line scanner, whose sight lines have many origins, directions from one of them say nothing.
+      if (lines.origins.size() == 1 && lines.axis == Vec3::UnitZ()) frame.map = DepthMap(frame.cloud.points);
     }
     std::vector<double> depths;
     for (const Vec3& point : frame.cloud.points) depths.push_back(point.norm());
