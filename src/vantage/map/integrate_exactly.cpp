@@ -65,13 +65,16 @@ IntegrationReport integrate_exactly(VoxelMap& map, std::span<const SightLine> li
   IntegrationReport report;
   for (const SightLine& line : lines) require_near(map.grid(), line.origin);
   PointSupport points(map);
+  // A scan that has no normals at all says nothing by their absence.
+  const bool has_normals = std::any_of(lines.begin(), lines.end(),
+                                       [](const SightLine& line) { return line.is_hit && !line.normal.isZero(0); });
   for (const SightLine& line : lines) {
     if (!line.is_hit) continue;
     const Index3 index = map.grid().index_of(line.hit_point());
     if (!map.enclosure().contains(index)) continue;
     ++report.points_in_enclosure;
     const bool has_normal = !line.normal.isZero(0);
-    const auto [surface, is_new] = points.add(index, has_normal);
+    const auto [surface, is_new] = points.add(index, has_normal || !has_normals);
     if (is_new) ++report.new_occupied;
     if (surface != nullptr && has_normal) surface->add(line.normal, line.quality);
   }

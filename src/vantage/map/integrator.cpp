@@ -160,11 +160,20 @@ class BlockCarver {
   const LatticeProjection& projection_;
 };
 
+/// Whether any measured point has a normal; a scan without any says nothing by their absence.
+bool has_any_normal(const RangeImage& image, std::span<const Vec3f> normals_in_sensor) {
+  for (std::size_t pixel = 0; pixel < normals_in_sensor.size(); ++pixel) {
+    if (!normals_in_sensor[pixel].isZero(0) && RangeImage::is_hit(image.depth[pixel])) return true;
+  }
+  return false;
+}
+
 IntegrationReport add_points(VoxelMap& map, PointSupport& support, const ScanLimits& limits, const RangeImage& image,
                              std::span<const Vec3f> normals_in_sensor, const View& view, QualityReference reference) {
   const RayGrid rays = image.camera.rays();
   const Mat3 rotation = view.world_from_sensor.linear();
   const int columns = image.camera.resolution.columns;
+  const bool has_normals = has_any_normal(image, normals_in_sensor);
   IntegrationReport report;
   for (const std::vector<ScanPoint>& band : limits.points()) {
     report.points_in_enclosure += static_cast<std::int64_t>(band.size());
@@ -173,7 +182,7 @@ IntegrationReport add_points(VoxelMap& map, PointSupport& support, const ScanLim
           normals_in_sensor.empty() ? Vec3f(Vec3f::Zero()) : normals_in_sensor[static_cast<std::size_t>(point.pixel)];
       const Vec3 normal = rotation * normal_in_sensor.cast<double>();
       const bool has_normal = !normal.isZero(0);
-      const auto [surface, is_new] = support.add(point.voxel + map.enclosure().min, has_normal);
+      const auto [surface, is_new] = support.add(point.voxel + map.enclosure().min, has_normal || !has_normals);
       if (is_new) ++report.new_occupied;
       if (surface == nullptr || !has_normal) continue;
       const Vec3 towards =

@@ -29,6 +29,7 @@ class StoredRunTest : public ::testing::Test {
       scan.scan = k;
       scan.candidate = 5 * k;
       scan.commanded = scan.believed = scan.registered = views[static_cast<std::size_t>(5 * k)];
+      scan.merged = k == 0;
       scan.verdict = k == 0 ? "first" : std::string(name(Verdict::not_converged));
       model_.scans.push_back(scan);
     }
