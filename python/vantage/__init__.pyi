@@ -374,6 +374,7 @@ class Planner:
         workspace = none [m]: box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given
         obstacles = none [m]: solid boxes cx,cy,cz,sx,sy,sz separated by ';'
         robot = none: YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md
+        package = none: folders of the packages that the robot's URDF names, NAME=FOLDER separated by ';'
         travel = none: what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight
         search = exhaustive: exhaustive or multi-resolution
         rays = sensor: rays of the exhaustive search: sensor, ideal or COLUMNSxROWS
@@ -623,7 +624,7 @@ class RangeScanner:
 
 class SimulatedRobot:
     """A free flyer with a range camera that may err: it believes to be where it was sent."""
-    def __init__(self, scanner: RangeScanner, camera: RangeCamera, *, positioning_error: ArrayLike = ..., depth_noise: List[float] = [0.0, 0.0], sensor: str = 'ideal', seed: int = 1) -> None:
+    def __init__(self, scanner: RangeScanner, camera: RangeCamera, *, positioning_error: ArrayLike = ..., depth_noise: List[float] = ..., sensor: str = 'ideal', seed: int = 1) -> None:
         """positioning_error (3,): standard deviation per axis, metres; depth_noise: A, B[, C] of A + B z^2 + C tan^2(incidence), instead of the deviation of the sensor, one of sensor_names, where it is not 0."""
     def move_to(self, view: ArrayLike) -> bool:
         """False where it cannot get there."""
@@ -660,6 +661,7 @@ def simulate(object: Union[str, TriangleMesh], on_scan: Optional[Callable[[ScanR
         workspace = none [m]: box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given
         obstacles = none [m]: solid boxes cx,cy,cz,sx,sy,sz separated by ';'
         robot = none: YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md
+        package = none: folders of the packages that the robot's URDF names, NAME=FOLDER separated by ';'
         travel = none: what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight
         search = exhaustive: exhaustive or multi-resolution
         rays = sensor: rays of the exhaustive search: sensor, ideal or COLUMNSxROWS
@@ -721,16 +723,24 @@ class ScanSet:
 def open_scans(path: Union[str, pathlib.Path], **options: Any) -> ScanSet:
     """Opens a folder of depth frames or clouds with poses, or a Stanford .conf: a ScanSet. Images and clouds are read on demand.
     Options by keyword, as on the command line:
-        depth_scale = 0.001 [m]: what one unit of a depth image means
+        depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
         depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
         no_return = none: value of a depth image that says that nothing is there
+        unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
+        depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
+        depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        confidence = : FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown
         unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
         hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
         crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
         cloud_frame = sensor: frame of the points of clouds: sensor, or world
+        topic = : topic of a bag with depth images or clouds; the only one if not given
+        frame = : frame of a bag's /tf that is the world; the root of the sensor's tree if not given
+        every = 1: takes every n-th frame of a bag
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)"""
 
 def read_pose(path: Union[str, pathlib.Path]) -> NDArray[numpy.float64]:
@@ -749,7 +759,7 @@ class ScanModel:
     Options by keyword, as on the command line of `vantage plan`:
         box = none [m]: where the object is: cx,cy,cz,sx,sy,sz; around all points if not given
         voxel = none [m]: edge of a voxel; the longest side of the box over 55 if not given
-        radius = none [m]: of the view sphere; the sensor's mean distance from the box if not given
+        radius = none [m]: of the view sphere; the sensor's median distance from the box at merged scans if not given
         views = 80: candidates on the view sphere: 20*4^k
         registration = icp: icp, or none to take the poses as they are
         pose_error = 0.05 [m]: how far off the poses may be at most
@@ -759,16 +769,24 @@ class ScanModel:
         depth_noise = none [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence), instead of the sensor's
         flying_pixels = remove: pixels of depth images that no surface around them explains: remove (they become unknown) or keep
         map = evidence: how voxels become occupied: evidence (points against rays through them) or paper (by a point, for ever)
-        depth_scale = 0.001 [m]: what one unit of a depth image means
+        depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
         depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
         no_return = none: value of a depth image that says that nothing is there
+        unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
+        depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
+        depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        confidence = : FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown
         unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
         hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
         crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
         cloud_frame = sensor: frame of the points of clouds: sensor, or world
+        topic = : topic of a bag with depth images or clouds; the only one if not given
+        frame = : frame of a bag's /tf that is the world; the root of the sensor's tree if not given
+        every = 1: takes every n-th frame of a bag
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)
         camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
         max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
@@ -776,6 +794,7 @@ class ScanModel:
         workspace = none [m]: box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given
         obstacles = none [m]: solid boxes cx,cy,cz,sx,sy,sz separated by ';'
         robot = none: YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md
+        package = none: folders of the packages that the robot's URDF names, NAME=FOLDER separated by ';'
         travel = none: what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight
         search = exhaustive: exhaustive or multi-resolution
         rays = sensor: rays of the exhaustive search: sensor, ideal or COLUMNSxROWS
@@ -825,7 +844,7 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
     Options by keyword, as on the command line of `vantage plan`:
         box = none [m]: where the object is: cx,cy,cz,sx,sy,sz; around all points if not given
         voxel = none [m]: edge of a voxel; the longest side of the box over 55 if not given
-        radius = none [m]: of the view sphere; the sensor's mean distance from the box if not given
+        radius = none [m]: of the view sphere; the sensor's median distance from the box at merged scans if not given
         views = 80: candidates on the view sphere: 20*4^k
         registration = icp: icp, or none to take the poses as they are
         pose_error = 0.05 [m]: how far off the poses may be at most
@@ -835,16 +854,24 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         depth_noise = none [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence), instead of the sensor's
         flying_pixels = remove: pixels of depth images that no surface around them explains: remove (they become unknown) or keep
         map = evidence: how voxels become occupied: evidence (points against rays through them) or paper (by a point, for ever)
-        depth_scale = 0.001 [m]: what one unit of a depth image means
+        depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
         depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
         no_return = none: value of a depth image that says that nothing is there
+        unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
+        depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
+        depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        confidence = : FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown
         unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
         hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
         crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
         cloud_frame = sensor: frame of the points of clouds: sensor, or world
+        topic = : topic of a bag with depth images or clouds; the only one if not given
+        frame = : frame of a bag's /tf that is the world; the root of the sensor's tree if not given
+        every = 1: takes every n-th frame of a bag
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)
         camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
         max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
@@ -852,6 +879,7 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         workspace = none [m]: box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given
         obstacles = none [m]: solid boxes cx,cy,cz,sx,sy,sz separated by ';'
         robot = none: YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md
+        package = none: folders of the packages that the robot's URDF names, NAME=FOLDER separated by ';'
         travel = none: what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight
         search = exhaustive: exhaustive or multi-resolution
         rays = sensor: rays of the exhaustive search: sensor, ideal or COLUMNSxROWS
@@ -879,16 +907,24 @@ def scan_from_depth(depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, di
     """A Scan and the pose (4, 4) of its sensor from arrays as a driver and a robot give them.
     depth: (rows, columns), uint16 in units of depth_scale, or floating-point numbers in `unit` (infinite: nothing there; 0, negative or NaN: unknown). intrinsics: (3, 3), pixels. pose: (4, 4), world from sensor, or from the robot's hand with hand_eye; its position in `unit`. distortion: k1 k2 p1 p2 k3 k4 k5 k6, or fewer. mask: (rows, columns), zero where a pixel does not count.
     Options by keyword, as on the command line:
-        depth_scale = 0.001 [m]: what one unit of a depth image means
+        depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
         depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
         no_return = none: value of a depth image that says that nothing is there
+        unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
+        depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
+        depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
         poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+        confidence = : FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown
         unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
         hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
         crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
         cloud_frame = sensor: frame of the points of clouds: sensor, or world
+        topic = : topic of a bag with depth images or clouds; the only one if not given
+        frame = : frame of a bag's /tf that is the world; the root of the sensor's tree if not given
+        every = 1: takes every n-th frame of a bag
         scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)"""
 
 
@@ -933,7 +969,7 @@ class Session:
         """Makes a session of a folder and opens it. Options by keyword, as those of `vantage session new`; box is required:
             box = none [m]: where the object is: cx,cy,cz,sx,sy,sz; around all points if not given
             voxel = none [m]: edge of a voxel; the longest side of the box over 55 if not given
-            radius = none [m]: of the view sphere; the sensor's mean distance from the box if not given
+            radius = none [m]: of the view sphere; the sensor's median distance from the box at merged scans if not given
             views = 80: candidates on the view sphere: 20*4^k
             registration = icp: icp, or none to take the poses as they are
             pose_error = 0.05 [m]: how far off the poses may be at most
@@ -943,16 +979,24 @@ class Session:
             depth_noise = none [m, 1/m, m]: A,B or A,B,C: standard deviation of a depth z is A + B z^2 + C tan^2(incidence), instead of the sensor's
             flying_pixels = remove: pixels of depth images that no surface around them explains: remove (they become unknown) or keep
             map = evidence: how voxels become occupied: evidence (points against rays through them) or paper (by a point, for ever)
-            depth_scale = 0.001 [m]: what one unit of a depth image means
+            depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
             depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
             no_return = none: value of a depth image that says that nothing is there
+            unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
+            depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
+            depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
             poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+            match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
             intrinsics = : file with the intrinsics; one of the usual names if not given
             masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+            confidence = : FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown
             unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
             hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
             crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
             cloud_frame = sensor: frame of the points of clouds: sensor, or world
+            topic = : topic of a bag with depth images or clouds; the only one if not given
+            frame = : frame of a bag's /tf that is the world; the root of the sensor's tree if not given
+            every = 1: takes every n-th frame of a bag
             scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)
             camera = 45x45:320x320: apertures in degrees and pixels, HxV:COLUMNSxROWS
             max_incidence = none [degrees]: largest angle between a surface's normal and the way back to the sensor; unlimited if not given
@@ -960,6 +1004,7 @@ class Session:
             workspace = none [m]: box that the sensor stays in: x0,y0,z0,x1,y1,z1; unlimited if not given
             obstacles = none [m]: solid boxes cx,cy,cz,sx,sy,sz separated by ';'
             robot = none: YAML file of the robot: what it reaches, and what comes with it; see docs/robots.md
+            package = none: folders of the packages that the robot's URDF names, NAME=FOLDER separated by ';'
             travel = none: what moves are counted by: orthodromic, straight or path; by default orthodromic on a sphere, else straight
             search = exhaustive: exhaustive or multi-resolution
             rays = sensor: rays of the exhaustive search: sensor, ideal or COLUMNSxROWS
@@ -989,16 +1034,24 @@ class Session:
     def add_files(self, path: Union[str, pathlib.Path], candidate: Optional[int] = None, **options: Any) -> List[ScanRecord]:
         """Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or a Stanford .conf. candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.
         The session's options of reading, which keywords change for these scans alone:
-            depth_scale = 0.001 [m]: what one unit of a depth image means
+            depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
             depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
             no_return = none: value of a depth image that says that nothing is there
+            unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
+            depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
+            depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
             poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+            match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
             intrinsics = : file with the intrinsics; one of the usual names if not given
             masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
+            confidence = : FOLDER,LEAST: images of the frames' names whose pixels below LEAST make those of the depth unknown
             unit = m: unit of poses, clouds and floating-point depths: m, cm, mm or inch
             hand_eye =  [unit]: pose of the sensor in the robot's hand, x,y,z,qx,qy,qz,qw or a pose file; then the poses are the hand's
             crop = none [m]: box cx,cy,cz,sx,sy,sz; what is measured outside of it says nothing
             cloud_frame = sensor: frame of the points of clouds: sensor, or world
+            topic = : topic of a bag with depth images or clouds; the only one if not given
+            frame = : frame of a bag's /tf that is the world; the root of the sensor's tree if not given
+            every = 1: takes every n-th frame of a bag
             scanner_origin = 0.18,1.3 [m]: y,z of the sight lines' origin of a line scanner (.conf)"""
     def next(self) -> Optional[Plan]:
         """The Plan for the next scan, its views in rank with their factors and what fell out with the reason; None where there is none, why_finished then says so. Does not wait for a registration in another thread."""

@@ -120,13 +120,9 @@ std::vector<Finding> check_misplaced(const Evidence& evidence, const Reading& re
   return findings;
 }
 
-}  // namespace
-
-std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& reading, double pose_error) {
-  if (evidence.frames.size() < 3) return {};
-  const std::vector<double> shares = agreement_of_frames(evidence, reading);
-  const double typical = median_of(shares);
-  if (is_contradicted(consistency(evidence, reading))) return check_all(evidence, reading, pose_error, typical);
+/// The frames that alone are off, by name.
+std::vector<Finding> check_frames(const Evidence& evidence, const Reading& reading, double pose_error,
+                                  const std::vector<double>& shares, double typical) {
   // A frame from the other side of a thing shares little, too; one that is off is contradicted as well.
   const std::vector<Consistency> fits = consistency_of_frames(evidence, reading);
   const auto is_off = [&](std::size_t i) {
@@ -154,6 +150,19 @@ std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& 
                   " of their points with the others, also once registered; a "
                   "frame typically shares ",
                   percent(typical))}};
+}
+
+}  // namespace
+
+std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& reading, double pose_error) {
+  if (evidence.frames.size() < 3) return {};
+  const std::vector<double> shares = agreement_of_frames(evidence, reading);
+  const double typical = median_of(shares);
+  const bool do_all_contradict = is_contradicted(consistency(evidence, reading));
+  // A single frame that is far off contradicts many others, and naming it says more than that the set does not fit.
+  std::vector<Finding> named = check_frames(evidence, reading, pose_error, shares, typical);
+  if (!do_all_contradict || named.size() == 1) return named;
+  return check_all(evidence, reading, pose_error, typical);
 }
 
 }  // namespace vantage

@@ -229,7 +229,11 @@ struct EvidenceRow {
     line.end = x + 2.5;
     line.is_hit = true;
     line.normal = normal;
-    return integrate_exactly(map, std::vector{line});
+    // A scan has stray points where other points of it have normals: one far from the row.
+    SightLine elsewhere = line;
+    elsewhere.origin.y() = 9.5;
+    elsewhere.normal = -Vec3::UnitX();
+    return integrate_exactly(map, std::vector{line, elsewhere});
   }
   [[nodiscard]] std::string labels() const {
     std::string text;

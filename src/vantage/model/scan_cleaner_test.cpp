@@ -62,7 +62,7 @@ TEST(SensorOptions, NamesWhatIsWrong) {
   EXPECT_EQ(complaint({}), "nothing was thrown");
   EXPECT_THAT(complaint({.sensor = "lidar"}), HasSubstr("sensor = 'lidar': must be one of: ideal, primesense"));
   EXPECT_THAT(complaint({.depth_noise = DepthDeviation{-1, 0}}),
-              HasSubstr("depth-noise = -1,0,0: must be from 0 to 1e+06"));
+              HasSubstr("depth-noise = -1,0,0: must be from 0 to 1000000"));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ std::string complaint(const SensorModel& sensor) {
 }
 
 TEST(SensorModel, NamesWhatIsWrong) {
-  EXPECT_THAT(complaint({.constant = -0.1}), HasSubstr("constant = -0.1 m: must be from 0 to 1e+06"));
+  EXPECT_THAT(complaint({.constant = -0.1}), HasSubstr("constant = -0.1 m: must be from 0 to 1000000"));
   EXPECT_THAT(complaint({.quadratic = -2}), HasSubstr("quadratic = -2 1/m"));
   EXPECT_THAT(complaint({.linear = -1}), HasSubstr("linear = -1: makes the deviation negative"));
   EXPECT_THAT(complaint({.quantum = -1}), HasSubstr("quantum = -1 m"));

@@ -96,9 +96,13 @@ void SessionFolder::create(const fs::path& path, const ScanPlanningOptions& opti
   const VoxelMap fits_in_memory(scene.scene);
   options.require_can_plan(scene.scene);
   const fs::path data = path / data_folder;
+  const auto require_none = [&path] {
+    require(!is_session(path), path.string(), ": already is a session; add scans to it or give another folder");
+  };
+  require_none();  // one that is open says so too
   create_folders(data);
   const FolderLock lock(data, in_use);
-  require(!is_session(path), path.string(), ": already is a session; add scans to it or give another folder");
+  require_none();
   require(!holds_scans(data), data.string(), ": holds the scans of a session whose ", options_file,
           " is gone; put that back, or give another folder");
   ScanPlanningOptions copy = options;
