@@ -71,7 +71,7 @@ TEST(RosImage, ColorsComeInTheirOrder) {
 TEST(RosImage, RvlIsRunsAndDifferences) {
   const std::string data = bytes({0x00, 0x51, 0xA1, 0x22});
   EXPECT_THAT(unpack_rvl(data, 5, "m"), ElementsAre(0, 0, 5, 2, 0));
-  EXPECT_THAT(input_error_of([&] { (void)unpack_rvl(data, 4, "m"); }), HasSubstr("more than 4 pixels"));
+  EXPECT_THAT(input_error_of([&] { (void)unpack_rvl(data, 3, "m"); }), HasSubstr("more than 3 pixels"));
   EXPECT_THAT(input_error_of([&] { (void)unpack_rvl(data, 6, "m"); }), HasSubstr("m, byte"));
 }
 
@@ -108,10 +108,10 @@ TEST(RosImage, PartsAndBinnedPixelsOfTheSensorCount) {
   info.roi_x = 20;
   info.roi_y = 40;
   info.roi_width = 320;
-  info.roi_height = 200;
+  info.roi_height = 240;
   const Intrinsics part = intrinsics_of(info, false, "m");
   EXPECT_EQ((std::array{part.fx, part.fy, part.cx, part.cy}), (std::array{250.0, 255.0, 150.0, 100.0}));
-  EXPECT_EQ(part.resolution, (Resolution{160, 100}));
+  EXPECT_EQ(part.resolution, (Resolution{160, 120}));
   info.k = {};
   EXPECT_THAT(input_error_of([&] { (void)intrinsics_of(info, false, "m"); }), HasSubstr("K is not filled in"));
 }
