@@ -157,7 +157,7 @@ TEST(Gain, GivesWhatItsDefinitionGivesInEnclosuresBeyondTenBits) {
     const VisibilityEvaluator visibility(map);
     const RangeCamera camera = camera_from_apertures(radians(50), radians(40), {64, 64});
     std::vector<ViewToJudge> views;
-    for (int i = 0; i < 64; ++i) {
+    for (int i = 0; i < 8; ++i) {
       // Beside both ends: the voxels there differ in the bits beyond the tenth alone.
       Vec3 target = Vec3::Constant(0.07);
       target[axis] = 0.02 * (i % 2 == 0 ? 1060 : 36);
@@ -178,8 +178,8 @@ TEST(Gain, GivesWhatItsDefinitionGivesInEnclosuresBeyondTenBits) {
       positive += scores[i] > 0;
     }
   }
-  EXPECT_EQ(compared, 192);
-  EXPECT_GT(positive, 10);
+  EXPECT_EQ(compared, 24);
+  EXPECT_GE(positive, 6);  // only the strongest views of a choice have a score above zero
 }
 
 TEST(Gain, CountsStepsThroughUnknownVoxelsOnly) {
