@@ -164,6 +164,7 @@ std::vector<Index3> blocks_near(const SurfaceFrame& frame, const View& view, dou
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   std::vector<Index3> keys;
+  keys.reserve(all.size());
   for (const std::uint64_t key : all) keys.push_back(unpacked_key(key));
   return keys;
 }

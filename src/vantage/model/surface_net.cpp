@@ -21,8 +21,6 @@ constexpr float steepest_distance = 1.5F;
 /// The corners of a block's cells: its own nodes and those next to it.
 class NodesOfBlock {
  public:
-  static constexpr int side = length + 1;
-
   NodesOfBlock(const SurfaceField& field, std::size_t block) {
     for (int k = 0; k < 8; ++k) {
       const int number = field.find(field.blocks()[block].key + Index3(k & 1, k >> 1 & 1, k >> 2 & 1));

@@ -161,6 +161,7 @@ void SurfacePoints::measure_spacing_and_sigma(double given_sigma) {
   constexpr std::size_t most_queries = 4000, neighbours = 5;  // the point itself is one
   constexpr double least_sigma_in_spacings = 0.02;            // even of a perfect sensor
   std::vector<Vec3> places;
+  places.reserve(points_.size());
   for (const Point& point : points_) places.emplace_back(point.place.cast<double>());
   const PointIndex index(std::move(places));
   std::vector<double> spacings, deviations;
@@ -199,6 +200,7 @@ std::vector<Index3> blocks_near(const SurfacePoints& points, double cell, const 
   std::vector<std::uint64_t> sorted = keys.keys();
   std::sort(sorted.begin(), sorted.end());
   std::vector<Index3> result;
+  result.reserve(sorted.size());
   for (const std::uint64_t key : sorted) result.push_back(unpacked_key(key));
   return result;
 }

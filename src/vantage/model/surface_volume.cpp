@@ -47,7 +47,8 @@ void SurfaceVolume::fuse_image(const RangeImage& image, const View& view, const 
     blocks_.emplace(options_.cell.value_or(std::max(*spacing, sigma)));
   }
   const SurfaceFrame frame(image, {noise.sensor, std::hypot(noise.pose, least_sigma_)});
-  const std::size_t before = make_blocks([&](double cell) { return blocks_near(frame, view, cell, region_); });
+  const std::size_t before =
+      make_blocks(*blocks_, [&](double cell) { return blocks_near(frame, view, cell, region_); });
   vantage::fuse(*blocks_, frame, view, number);
   blocks_->drop_untouched(before);
 }
@@ -57,19 +58,20 @@ void SurfaceVolume::fuse_points(const PointScan& scan, const View& view, const S
   const SurfacePoints points(scan, view, noise, region_);
   if (points.empty()) return;
   if (!blocks_) blocks_.emplace(options_.cell.value_or(std::max(points.spacing(), points.sigma())));
-  const std::size_t before = make_blocks([&](double cell) { return blocks_near(points, cell, region_); });
+  const std::size_t before = make_blocks(*blocks_, [&](double cell) { return blocks_near(points, cell, region_); });
   vantage::fuse(*blocks_, points, region_, number);
   blocks_->drop_untouched(before);
 }
 
-std::size_t SurfaceVolume::make_blocks(const std::function<std::vector<Index3>(double)>& keys_at) {
-  std::vector<Index3> keys = keys_at(blocks_->cell());
-  while (blocks_->size() + keys.size() > options_.most_blocks) {
-    blocks_ = blocks_->coarsened();
-    keys = keys_at(blocks_->cell());
+std::size_t SurfaceVolume::make_blocks(SurfaceBlocks& blocks,
+                                       const std::function<std::vector<Index3>(double)>& keys_at) const {
+  std::vector<Index3> keys = keys_at(blocks.cell());
+  while (blocks.size() + keys.size() > options_.most_blocks) {
+    blocks = blocks.coarsened();
+    keys = keys_at(blocks.cell());
   }
-  const std::size_t before = blocks_->size();
-  blocks_->make(keys);
+  const std::size_t before = blocks.size();
+  blocks.make(keys);
   return before;
 }
 

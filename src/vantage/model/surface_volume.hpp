@@ -68,7 +68,7 @@ class SurfaceVolume {
   [[nodiscard]] SensorModel estimate_sensor(const RangeImage& image);
   /// Makes the blocks whose keys `keys_at` gives for a cell; the cell grows until they are few enough. Returns how many
   /// there were before.
-  std::size_t make_blocks(const std::function<std::vector<Index3>(double)>& keys_at);
+  std::size_t make_blocks(SurfaceBlocks& blocks, const std::function<std::vector<Index3>(double)>& keys_at) const;
 
   Box3 region_;
   SurfaceOptions options_;
