@@ -159,6 +159,7 @@ SensorModel sensor_with(const DepthDeviation& noise) { return with_noise({}, noi
 
 std::vector<std::string> sensor_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(presets));
   for (const auto& [name, make] : presets) names.emplace_back(name);
   return names;
 }
