@@ -78,6 +78,8 @@ void print_record(std::FILE* out, const ScanRecord& record) {
       1000 * (record.registered.position() - record.believed.position()).norm(),
       degrees(rotation_angle(record.registered.world_from_sensor.linear(), record.believed.world_from_sensor.linear())),
       record.new_occupied, record.merged ? "" : "  NOT MERGED");
+  // Why a scan was refused, and which directions stay as believed.
+  if (!record.merged || record.undetermined_directions > 0) fmt::print(out, "{:<24} {}\n", "", record.detail);
 }
 
 void print_move(const Move& move) {
