@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -32,6 +33,9 @@ class ScanModel {
   /// Registers the scan, merges it where that succeeds, and notes it.
   const ScanRecord& add(const ScanOrigin& origin, const Scan& scan, const View& believed, Registrar& registrar);
 
+  /// When no scan follows for now: tries those once more that were refused. Returns the numbers of those that came in.
+  std::vector<int> conclude(Registrar& registrar) { return vantage::conclude(model_, registrar); }
+
   [[nodiscard]] const ObjectModel& model() const { return model_; }
   /// Where the sensor is: at its last scan, in the middle of its sight lines' origins.
   [[nodiscard]] const View& current() const { return current_; }
@@ -39,6 +43,7 @@ class ScanModel {
  private:
   ObjectModel model_;
   View current_;
+  std::set<int> with_command_;  // numbers of scans of which it is known where the sensor was sent
 };
 
 /// Tells a planner from where scans were merged, as the loop of a run does after each of them: utilities with a memory

@@ -17,6 +17,27 @@ bool same_surface(const SurfaceVoxel& a, const SurfaceVoxel& b) {
   return a.normal_sum == b.normal_sum && a.quality == b.quality;
 }
 
+/// A change and the one after it as one.
+void add_change(MapChange& change, const MapChange& next) {
+  for (std::size_t i = 0; i < next.labels.size(); ++i) {
+    if (next.labels[i] != 0) change.labels[i] = next.labels[i];
+  }
+  MapChange both{std::move(change.labels), {}, {}, {}};
+  const auto take = [&both](const MapChange& from, std::size_t at) {
+    both.voxels.push_back(from.voxels[at]);
+    for (std::size_t axis = 0; axis < 3; ++axis) both.normals.push_back(from.normals[3 * at + axis]);
+    both.quality.push_back(from.quality[at]);
+  };
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < next.voxels.size(); ++i) {
+    for (; old < change.voxels.size() && change.voxels[old] < next.voxels[i]; ++old) take(change, old);
+    if (old < change.voxels.size() && change.voxels[old] == next.voxels[i]) ++old;
+    take(next, i);
+  }
+  for (; old < change.voxels.size(); ++old) take(change, old);
+  change = std::move(both);
+}
+
 }  // namespace
 
 MapChange MapRecorder::changes(const VoxelMap& map) {
@@ -74,7 +95,6 @@ void RunData::add_scan(const ScanRecord& record, const ObjectModel& model, const
   RecordedScan scan{record, std::nullopt, recorder_.changes(model.map)};
   if (plan != nullptr) scan.plan = candidate_plan(*plan, candidates.views.size());
   scans.push_back(std::move(scan));
-  cloud_sizes_.push_back(model.surface.cloud().size());
 }
 
 void RunData::finish(const ObjectModel& model, const std::string& reason) {
@@ -84,11 +104,11 @@ void RunData::finish(const ObjectModel& model, const std::string& reason) {
   cloud = model.surface.cloud();
   scan_of_point.resize(cloud.size());
   std::size_t first = 0;
-  for (std::size_t scan = 0; scan < cloud_sizes_.size(); ++scan) {
-    for (; first < std::min(cloud_sizes_[scan], cloud.size()); ++first) {
-      scan_of_point[first] = static_cast<std::uint16_t>(scan);
-    }
+  for (const auto& [scan, size] : model.cloud_growth) {
+    for (; first < std::min(size, cloud.size()); ++first) scan_of_point[first] = static_cast<std::uint16_t>(scan);
   }
+  for (std::size_t i = 0; i < std::min(scans.size(), model.scans.size()); ++i) scans[i].record = model.scans[i];
+  if (!scans.empty()) add_change(scans.back().change, recorder_.changes(model.map));
 }
 
 }  // namespace vantage

@@ -49,6 +49,14 @@ void write_frame(const std::filesystem::path& folder, const ScanRecord& record, 
                   encoding.metres_per_unit, no_return, image.camera.min_depth, image.camera.max_depth));
 }
 
+/// The poses of the frames as they are known in the end.
+void write_poses(const std::filesystem::path& folder, const std::vector<ScanRecord>& scans) {
+  for (const ScanRecord& scan : scans) {
+    const std::filesystem::path file = folder / fmt::format("scan-{:03}.pose.txt", scan.scan);
+    if (std::filesystem::exists(file)) write_pose(file, scan.registered.world_from_sensor);
+  }
+}
+
 }  // namespace
 
 PointCloud object_cloud(const ObjectModel& model) {
@@ -99,6 +107,7 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
   write_cloud_ply(path_ / "model.ply", object_cloud(model));
   write_file_atomically(path_ / "config.yaml", description_.config);
   write_file_atomically(path_ / "views.csv", views_csv(model.scans));
+  write_poses(path_ / "scans", model.scans);
   write_file_atomically(path_ / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
   write_file_atomically(path_ / "summary.json", summary_json(model, summary).dump(2) + "\n");
   if (!page && !on_event) return;
