@@ -27,11 +27,13 @@ YAML::Node parse_yaml(std::string_view bytes, const std::string& name) {
 }
 
 std::string place_of(const YAML::Node& node, const std::string& name) {
+  if (!node.IsDefined()) return name;  // a key that is missing has no place, and throws where it is asked for one
   const YAML::Mark mark = node.Mark();
   return mark.line < 0 ? name : fmt::format("{}, line {}", name, mark.line + 1);
 }
 
 double yaml_number(const YAML::Node& node, std::string_view what, const std::string& name) {
+  require(node.IsDefined(), name, ": has no '", what, "'");
   const auto value = node.IsScalar() ? to_double(node.Scalar()) : std::nullopt;
   if (!value || !std::isfinite(*value)) {
     throw InputError(fmt::format("{}: {} = {}: must be a finite number", place_of(node, name), what,

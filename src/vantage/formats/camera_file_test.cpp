@@ -118,6 +118,8 @@ TEST(CameraFile, OpenCvAndKalibrWriteYamlOfTheirOwn) {
   EXPECT_EQ(fisheye.lens, LensModel::equidistant);
   EXPECT_THAT(fisheye.distortion, ElementsAre(0.1, 0.2, 0.3, 0.4));
   EXPECT_EQ(parse_intrinsics_yaml(replaced(kalibr, "equidistant", "radtan"), "a").lens, LensModel::polynomial);
+  EXPECT_THAT(input_error_of([&] { (void)parse_intrinsics_yaml(replaced(kalibr, "intrinsics", "intrinsic"), "a"); }),
+              HasSubstr("a: has no 'intrinsics'"));
   EXPECT_THAT(input_error_of([&] { (void)parse_intrinsics_yaml(kalibr + "cam1: {}\n", "a.yaml"); }),
               HasSubstr("a.yaml: has several cameras (cam0, cam1 ...)"));
 }

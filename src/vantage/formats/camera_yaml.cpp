@@ -22,6 +22,7 @@ YAML::Node first_of(const YAML::Node& map, std::initializer_list<const char*> ke
 /// Numbers as a list, as a list of lists, or as the list `data` in a map, which is how OpenCV and ROS write matrices.
 std::vector<double> yaml_numbers(YAML::Node node, std::string_view what, const std::string& name) {
   constexpr std::size_t most = 64;
+  require(node.IsDefined(), name, ": has no '", what, "'");
   if (node.IsMap() && node["data"].IsDefined()) node.reset(node["data"]);
   require(node.IsSequence(), place_of(node, name), ": ", what, " must be a list of numbers");
   std::vector<double> numbers;

@@ -93,7 +93,7 @@ class PoseLines {
     } else if (numbers.size() == 12 || numbers.size() == 16) {
       become(numbers.size() == 12 ? "KITTI trajectory" : "list of 4x4 matrices");
       list_.poses.push_back({std::nullopt, std::nullopt, pose_of_rows(numbers, pose_name())});
-    } else if (numbers.size() <= 3 && std::all_of(numbers.begin(), numbers.end(), is_whole)) {
+    } else if (!numbers.empty() && numbers.size() <= 3 && std::all_of(numbers.begin(), numbers.end(), is_whole)) {
       number_ = static_cast<std::int64_t>(numbers.front());
     } else {
       text_.fail(

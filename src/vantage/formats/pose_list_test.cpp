@@ -39,6 +39,7 @@ TEST(PoseList, IsRecognisedByItsLines) {
 
 TEST(PoseList, WhatIsWrongIsNamed) {
   EXPECT_THAT(error_of(""), HasSubstr("a.txt: has no pose"));
+  EXPECT_THAT(error_of(", ,\n"), HasSubstr("a.txt, line 1: has 0 numbers: must be 8"));
   EXPECT_THAT(error_of("1 2 3 4 5\n"), HasSubstr("a.txt, line 1: has 5 numbers: must be 8"));
   EXPECT_THAT(error_of("1.5 1 2 3 0 0 0 2\n"), HasSubstr("a.txt: pose 0: the quaternion has length 2"));
   EXPECT_THAT(error_of("1.5 1 2 x 0 0 0 1\n"), HasSubstr("a.txt, line 1: number 4 = 'x': must be a number"));
