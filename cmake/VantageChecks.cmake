@@ -51,13 +51,12 @@ if(TARGET vantage_python)
   set_tests_properties(Readme.ListingsRun PROPERTIES LABELS default TIMEOUT 600 FIXTURES_REQUIRED installed_session)
 endif()
 
-# Packages in a fresh Debian, and a wheel in a fresh virtual environment: with -DVANTAGE_PACKAGE_TESTS=ON, because they
-# need root, the network and a second build.
-option(VANTAGE_PACKAGE_TESTS "Test the Debian packages and the wheel too (slow)" OFF)
-if(VANTAGE_PACKAGE_TESTS AND VANTAGE_APPS AND TARGET vantage_python)
+# Packages in a fresh Debian, and a wheel in a fresh virtual environment. The first needs root and a mirror of Debian, and
+# is skipped elsewhere.
+if(VANTAGE_APPS AND TARGET vantage_python)
   add_test(NAME Packages.InstallRunAndLeave
     COMMAND ${PROJECT_SOURCE_DIR}/tests/packages/check.sh ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
-  add_test(NAME Packages.Wheel
-    COMMAND ${PROJECT_SOURCE_DIR}/tests/packages/pip_check.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/wheel)
+  add_test(NAME Packages.Wheel COMMAND ${PROJECT_SOURCE_DIR}/tests/packages/pip_check.sh ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/wheel ${PROJECT_BINARY_DIR})
   set_tests_properties(Packages.InstallRunAndLeave Packages.Wheel PROPERTIES LABELS slow TIMEOUT 2400 SKIP_RETURN_CODE 77)
 endif()

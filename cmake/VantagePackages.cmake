@@ -52,6 +52,10 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-vantage)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
+# Python keeps bytecode beside the module, which has to go with it.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python3-vantage/postinst
+  ${PROJECT_SOURCE_DIR}/packaging/python3-vantage/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 math(EXPR vantage_next_python "${Python_VERSION_MINOR} + 1")
 string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", python3 (<< ${Python_VERSION_MAJOR}.${vantage_next_python})")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The Vantage library with numpy arrays in and out: planning, registration,

@@ -100,6 +100,9 @@ if(VANTAGE_APPS)
   add_test(NAME command_line.output
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/output_test.py $<TARGET_FILE:vantage>)
   set_tests_properties(command_line.output PROPERTIES LABELS default TIMEOUT 480)
+  add_test(NAME command_line.other_versions COMMAND /usr/bin/python3
+    ${PROJECT_SOURCE_DIR}/tests/cli/earlier_version_test.py $<TARGET_FILE:vantage> ${PROJECT_SOURCE_DIR}/tests/data)
+  set_tests_properties(command_line.other_versions PROPERTIES LABELS default TIMEOUT 480)
   set(experiment_test /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/experiment_test.py $<TARGET_FILE:vantage>)
   add_test(NAME experiments_fail_well COMMAND ${experiment_test} Failures)
   set_tests_properties(experiments_fail_well PROPERTIES LABELS default TIMEOUT 240)

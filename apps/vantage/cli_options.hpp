@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "notes.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/files/text_reader.hpp"
 #include "vantage/options/options.hpp"
 
@@ -28,6 +30,11 @@ inline const char* type_name(OptionField::Kind kind) {
   return "TEXT";
 }
 
+/// Lines about former names of options.
+inline void print_hints(const std::vector<std::string>& hints) {
+  for (const std::string& hint : hints) print_note("vantage: {}\n", printable(hint));
+}
+
 /// Adds one option: `--name VALUE`, or `--name` and `--no-name` for a flag.
 inline void add_option(CLI::App& command, const OptionField& field) {
   const std::string help = field.unit.empty() ? field.meaning : fmt::format("{} [{}]", field.meaning, field.unit);
@@ -43,6 +50,21 @@ inline void add_option(CLI::App& command, const OptionField& field) {
   if (field.text() != no_value) option->default_str(field.text());
 }
 
+/// Adds the former names of an option, which no help shows and which print a hint.
+inline void add_former_names(CLI::App& command, const OptionField& field) {
+  for (const FormerName& former : field.former) {
+    OptionField renamed = field;
+    renamed.name = former.name;
+    renamed.former = {};
+    renamed.set = [field, former](std::string_view text) {
+      print_hints({rename_hint("--" + former.name, former, "--" + field.name)});
+      return field.set(text);
+    };
+    add_option(command, renamed);
+    command.get_option("--" + former.name)->group("");
+  }
+}
+
 /// Adds the options as `--name VALUE`, flags as `--name` and `--no-name`, with defaults, units and meanings in the
 /// help, and `--config FILE` for all of them at once: what stands on the command line wins over the file. The options
 /// that the fields belong to must outlive the parsing; a bad value is an InputError that names the option. `also_known`
@@ -56,10 +78,13 @@ inline void add_options(CLI::App& command, const std::vector<OptionField>& field
         const std::string text = read_file(path);
         // A full disk leaves such files: defaults are not what anybody means by one.
         require(!trimmed(text).empty(), path, ": is empty; must have lines 'option: value', or leave --config out");
-        set_options_from_yaml(fields, text, path, also_known);
+        print_hints(set_options_from_yaml(fields, text, path, also_known));
       },
       "YAML file with options; see `vantage config`");
-  for (const OptionField& field : fields) add_option(command, field);
+  for (const OptionField& field : fields) {
+    add_option(command, field);
+    add_former_names(command, field);
+  }
 }
 
 /// The fields and those of another struct with a describe() behind them. The struct must outlive them.

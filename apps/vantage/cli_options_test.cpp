@@ -64,6 +64,25 @@ TEST(CliOptions, TheHelpHasDefaultsUnitsAndMeanings) {
   EXPECT_THAT(help, HasSubstr("--no-navigation"));
 }
 
+TEST(CliOptions, FormerNamesWorkWithAHint) {
+  ExampleOptions options;
+  CLI::App app;
+  std::vector<OptionField> fields = option_fields(options);
+  fields[0].former = {{"navigate", "0.2.0"}};
+  fields[2].former = {{"most-views", "0.2.0"}};
+  add_options(app, fields, {});
+  testing::internal::CaptureStderr();
+  app.parse("--most-views 3 --no-navigate --center 1,2,3");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "vantage: --navigate is called --navigation since version 0.2.0; the former name goes on working for one "
+            "version\nvantage: --most-views is called --max-views since version 0.2.0; the former name goes on working "
+            "for one version\n");
+  EXPECT_EQ(options.max_views, 3);
+  EXPECT_FALSE(options.navigation);
+  EXPECT_EQ(options.center, Vec3(1, 2, 3));
+  for (const char* former : {"navigate", "most-views"}) EXPECT_EQ(app.help().find(former), std::string::npos);
+}
+
 TEST(CliOptions, TheCommandLineWinsOverTheFileWhateverTheOrder) {
   const TestFolder folder;
   write_file_atomically(folder / "a.yaml", "max-views: 5\nnavigation: false\n");

@@ -40,6 +40,8 @@ void add_config(CLI::App& program) {
       fmt::print(
           "# Options\n\nMade by `vantage config --markdown`. Every option is a key of a file given with `--config`, "
           "and an option of the command line with `--` before it.\n\n");
+    } else {
+      fmt::print("{}\n", configuration_head());
     }
     print_section("vantage reconstruct", option_fields(reconstruct), *markdown);
     print_section("vantage plan, vantage session new: the scene", option_fields(plan), *markdown);

@@ -49,7 +49,9 @@ bool needs_no_comparison(std::string_view check) {
   return check == "frames" || check == "rotation" || check == "no-return" || check == "intrinsics";
 }
 
-void print_diagnosis(const Diagnosis& diagnosis) {
+enum class Shown { every_check, findings };
+
+void print_diagnosis(const Diagnosis& diagnosis, Shown shown) {
   for (const CheckName& check : doctor_checks()) {
     bool content = true;
     for (const Finding& finding : diagnosis.findings) {
@@ -58,7 +60,7 @@ void print_diagnosis(const Diagnosis& diagnosis) {
       fmt::print("{}  {:<14}  {}\n       {:<14}  fix: {}\n       {:<14}  because {}\n",
                  finding.is_note ? "note " : "WRONG", check.name, finding.wrong, "", finding.fix, "", finding.evidence);
     }
-    if (!content) continue;
+    if (!content || shown == Shown::findings) continue;
     if (diagnosis.not_compared && !needs_no_comparison(check.name)) {
       fmt::print("-      {:<14}  not checked: it takes two frames or more\n", check.name);
     } else {
@@ -94,7 +96,7 @@ void doctor(const DoctorRequest& request) {
   if (request.program.json) {
     fmt::print("{}\n", diagnosis_json(diagnosis).dump(2));
   } else {
-    print_diagnosis(diagnosis);
+    print_diagnosis(diagnosis, request.program.quiet ? Shown::findings : Shown::every_check);
   }
   if (!diagnosis.healthy()) throw CLI::RuntimeError(1);
 }
@@ -108,7 +110,9 @@ void add_doctor(CLI::App& program) {
       ->required();
   add_options(*command, request->options);
   add_program_options(*command, request->program);
-  command->footer("Exit code: 0 where all is well, 1 where something is wrong, 2 for misuse.");
+  command->footer(
+      "With --quiet only what was found is printed, not what is all right.\n"
+      "Exit code: 0 where all is well, 1 where something is wrong, 2 for misuse.");
   command->callback([request] { doctor(*request); });
 }
 

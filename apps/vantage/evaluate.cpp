@@ -72,7 +72,7 @@ void print_labels(const VoxelMap& map) {
 void evaluate(EvaluateRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
-  load_robot(request.options, request.given);
+  print_hints(load_robot(request.options, request.given));
   const VoxelMap map = read_map(request.map);
   const Planner planner(candidates_from_text(request.options.candidates, map.enclosure_center()),
                         request.options.range_camera(), request.options.planner_options());

@@ -121,6 +121,7 @@ void arrange(CLI::App& command) {
   const CommandHelp help = help_of(command.get_name());
   if (!help.groups.empty()) {
     for (CLI::Option* option : command.get_options()) {
+      if (option->get_group().empty()) continue;  // hidden
       if (option->get_positional() || option == command.get_help_ptr() || option == command.get_help_all_ptr())
         continue;
       option->group(further_options);

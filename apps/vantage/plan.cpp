@@ -41,7 +41,7 @@ RunDescription describe_run(PlanRequest& request, const RangeCamera& camera) {
   std::vector<OptionField> fields = option_fields(request.options);
   append_changed(fields, request.surface);
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
-  description.config = "# vantage plan " + request.scans + "\n" + options_as_yaml(fields);
+  description.config = "# vantage plan " + request.scans + "\n" + configuration_head() + options_as_yaml(fields);
   description.camera = camera;
   if (request.report) description.surface = request.surface;
   return description;
@@ -61,7 +61,7 @@ void plan(PlanRequest& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
   require(request.top >= 0, "top = ", request.top, ": must not be negative");
-  load_robot(request.options.planning, request.given);
+  print_hints(load_robot(request.options.planning, request.given));
   request.options.validate_without_commands();
   request.surface.validate();
   const ScanSet set = open_scans(request.scans, request.options.reading);

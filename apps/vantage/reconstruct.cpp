@@ -53,8 +53,8 @@ RunDescription describe_run(const ReconstructRequest& request, const std::string
   std::vector<OptionField> fields = option_fields(options);
   append_changed(fields, surface);
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
-  description.config =
-      fmt::format("# vantage reconstruct {} --config THIS_FILE\n{}", object_name, options_as_yaml(fields));
+  description.config = fmt::format("# vantage reconstruct {} --config THIS_FILE\n{}{}", object_name,
+                                   configuration_head(), options_as_yaml(fields));
   description.camera = request.options.range_camera();
   description.candidates = request.options.candidate_views();
   description.candidates_text = request.options.candidates;
@@ -138,7 +138,7 @@ void print_result(const ReconstructRequest& request, const RunFolder& folder, co
 void reconstruct(ReconstructRequest& request) {
   const auto start = Clock::now();
   const auto threads = limit_threads(request.program.threads);
-  load_robot(request.options, request.given);
+  print_hints(load_robot(request.options, request.given));
   request.options.validate();
   const std::string cost =
       cost_note(request.options.candidate_views().views.size(), request.options.range_camera().resolution);

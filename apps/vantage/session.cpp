@@ -44,7 +44,7 @@ void tell_dropped(const SessionStatus& status) {
 }
 
 void create(SessionRequest& request) {
-  load_robot(request.options.planning, request.given);
+  print_hints(load_robot(request.options.planning, request.given));
   Session::create(request.folder, request.options);
   if (!request.program.quiet) fmt::print("new session in {}\n", request.folder);
 }

@@ -10,6 +10,20 @@ std::string keyword_of(std::string name) {
   return name;
 }
 
+/// The field that the keyword names, with a warning where it is a former name.
+std::vector<OptionField>::const_iterator field_of(const std::vector<OptionField>& fields, const std::string& keyword) {
+  for (auto field = fields.begin(); field != fields.end(); ++field) {
+    if (keyword_of(field->name) == keyword) return field;
+    for (const FormerName& former : field->former) {
+      if (keyword_of(former.name) != keyword) continue;
+      const std::string hint = rename_hint(keyword, former, keyword_of(field->name));
+      if (PyErr_WarnEx(PyExc_FutureWarning, hint.c_str(), 1) != 0) throw py::error_already_set();
+      return field;
+    }
+  }
+  return fields.end();
+}
+
 /// A value as the command line writes it.
 std::string text_of(py::handle value) {
   if (value.is_none()) return std::string(no_value);
@@ -30,8 +44,7 @@ std::string text_of(py::handle value) {
 void set_options(const std::vector<OptionField>& fields, const py::kwargs& keywords, const std::string& function) {
   for (const auto& [key, value] : keywords) {
     const auto name = key.cast<std::string>();
-    const auto field = std::find_if(fields.begin(), fields.end(),
-                                    [&](const OptionField& each) { return keyword_of(each.name) == name; });
+    const auto field = field_of(fields, name);
     if (field == fields.end()) {
       std::vector<std::string> names;
       for (const OptionField& each : fields) names.push_back(keyword_of(each.name));

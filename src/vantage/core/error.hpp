@@ -18,10 +18,12 @@ class InputError : public Error {
   using Error::Error;
 };
 
-/// The parts written one after the other, as `operator<<` prints them.
+/// The parts written one after the other, as `operator<<` prints them. Throws where memory is short: a stream by itself
+/// would cut the text off without a word.
 template <class... Parts>
 [[nodiscard]] std::string concat(const Parts&... parts) {
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);
   text.precision(12);
   (text << ... << parts);
   return text.str();

@@ -131,6 +131,7 @@ std::string unpack_zstd_file(const std::filesystem::path& from, const std::files
       is_full = done.given == unpacked.size();
     }
   }
+  if (in.bad()) throw Error(concat(from.string(), ": cannot be read any further"));
   out.close();
   if (!out) throw Error(concat(to.string(), ": cannot be written; is the disk full?"));
   return at_end && written > 0 ? "" : concat("is cut off after ", written, " unpacked bytes");

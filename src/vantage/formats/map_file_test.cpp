@@ -210,6 +210,20 @@ TEST(MapFile, HeadersOfOtherProgramsAreRead) {
   EXPECT_EQ(map.label({0, 0, 1}), Label::empty);
 }
 
+TEST(MapFile, MapsOfEarlierVersionsAreReadAndNewerOnesRefused) {
+  Files files = files_of(random_map(1));
+  const std::string format = "vantage-format:=1\n";
+  const std::string of_0_1 = replaced(files.labels, format, "");
+  EXPECT_EQ(parse({of_0_1, files.surface}).count(Label::occupied), random_map(1).count(Label::occupied));
+  files.labels = replaced(files.labels, format, "vantage-format:=2\n");
+  try {
+    (void)parse(files);
+    FAIL() << "a newer format was read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("has format 2; this program knows 1, take the program that wrote it"));
+  }
+}
+
 TEST(MapFile, BadLabelFilesAreRefusedWithPlaceAndReason) {
   const Files good = files_of(random_map(2));
   const auto error = [&](const std::string& labels) {

@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/format_version.hpp"
 #include "vantage/files/text_reader.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr int nrrd_longest_side = 16384;
+constexpr std::string_view format_key = "vantage-format";  // maps of 0.1 have none
+constexpr int map_format = 1;
 
 /// The numbers of a header field, however they are bracketed: "(0.02,0,0) (0,0.02,0) (0,0,0.02)".
 std::vector<double> numbers(const TextReader& text, std::string_view field, std::string_view value, std::size_t count) {
@@ -131,6 +134,8 @@ NrrdHeader read_nrrd_header(TextReader& text) {
     const std::string_view field = line.substr(0, colon);
     if (line[colon + 1] != '=') {
       read_field(text, field, trimmed(line.substr(colon + 1)), header);
+    } else if (field == format_key) {
+      require_known_format(numbers(text, field, trimmed(line.substr(colon + 2)), 1)[0], map_format, text.name());
     } else if (field == "enclosure") {
       header.enclosure = read_enclosure(text, trimmed(line.substr(colon + 2)));
     } else if (field == "scene") {
@@ -201,6 +206,7 @@ std::string nrrd_header(const Grid& grid, const IndexBox& enclosure, const Index
   header += fmt::format("space directions: ({0},0,0) (0,{0},0) (0,0,{0})\n", grid.length);
   header += "kinds: domain domain domain\nspace units: \"m\" \"m\" \"m\"\nencoding: raw\n";
   header += fmt::format("space origin: ({},{},{})\n", first.x(), first.y(), first.z());
+  header += fmt::format("{}:={}\n", format_key, map_format);
   header += fmt::format("enclosure:={} {} {} {} {} {}\n", inside.min.x(), inside.min.y(), inside.min.z(),
                         inside.max.x(), inside.max.y(), inside.max.z());
   if (!is_whole) {

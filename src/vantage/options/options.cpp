@@ -4,14 +4,19 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 #include <set>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/format_version.hpp"
 #include "vantage/files/yaml_text.hpp"
 
 namespace vantage {
 namespace {
+
+constexpr std::string_view head_start = "# configuration of vantage, format ";
+constexpr int configuration_format = 1;
 
 /// Letters to insert, delete or replace, and neighbours to swap, to make one text of the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -83,6 +88,16 @@ std::string escaped_cell(std::string text) {
   return text;
 }
 
+/// The field of this name, or that had it once.
+auto field_called(const std::vector<OptionField>& fields, const std::string& name) {
+  const auto has_name = [&](const OptionField& field) { return field.name == name; };
+  const auto had_name = [&](const OptionField& field) {
+    return std::any_of(field.former.begin(), field.former.end(), [&](const auto& each) { return each.name == name; });
+  };
+  const auto found = std::find_if(fields.begin(), fields.end(), has_name);
+  return found != fields.end() ? found : std::find_if(fields.begin(), fields.end(), had_name);
+}
+
 [[noreturn]] void fail_unknown(const std::string& key, const std::string& place,
                                const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(key, names);
@@ -120,19 +135,39 @@ void set_option(const OptionField& field, std::string_view text, const std::stri
   throw InputError(fmt::format("{} = {}: must be {}", place, in_quotes(text), field.expected));
 }
 
-void set_options_from_yaml(const std::vector<OptionField>& fields, std::string_view yaml, const std::string& name,
-                           const std::vector<std::string>& also_known) {
+std::string configuration_head() { return fmt::format("{}{}\n", head_start, configuration_format); }
+
+void require_known_configuration(std::string_view yaml, const std::string& name) {
+  while (yaml.starts_with('#')) {
+    int found = 0;
+    const std::string_view line = yaml.substr(0, yaml.find('\n'));
+    if (line.starts_with(head_start)) {
+      const std::string_view number = line.substr(head_start.size());
+      std::from_chars(number.data(), number.data() + number.size(), found);
+    }
+    require_known_format(found, configuration_format, name);
+    yaml.remove_prefix(std::min(line.size() + 1, yaml.size()));
+  }
+}
+
+std::vector<std::string> set_options_from_yaml(const std::vector<OptionField>& fields, std::string_view yaml,
+                                               const std::string& name, const std::vector<std::string>& also_known) {
+  require_known_configuration(yaml, name);
+  std::vector<std::string> hints;
   const YAML::Node root = parse_yaml(yaml, name);
-  if (root.IsNull()) return;  // an empty file changes nothing
+  if (root.IsNull()) return hints;  // an empty file changes nothing
   require(root.IsMap(), name, ": must be a list of lines 'option: value'");
   std::set<std::string> seen;
   for (const auto& entry : root) {
     require(entry.first.IsScalar(), place_of(entry.first, name), ": the name of an option must be a word");
     const std::string& key = entry.first.Scalar();
     const std::string place = place_of(entry.first, name);
-    require(seen.insert(key).second, place, ": option ", in_quotes(key), " stands twice");
-    const auto field = std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == key; });
+    const auto field = field_called(fields, key);
+    const std::string& now = field != fields.end() ? field->name : key;
+    require(seen.insert(now).second, place, ": option ", in_quotes(now), " stands twice");
     if (field != fields.end()) {
+      for (const FormerName& former : field->former)
+        if (former.name == key) hints.push_back(rename_hint(fmt::format("{}: {}", place, key), former, now));
       set_option(*field, value_text(entry.second, key, name), fmt::format("{}: {}", place, key));
     } else if (std::find(also_known.begin(), also_known.end(), key) == also_known.end()) {
       std::vector<std::string> names = also_known;
@@ -140,6 +175,7 @@ void set_options_from_yaml(const std::vector<OptionField>& fields, std::string_v
       fail_unknown(key, place, names);
     }
   }
+  return hints;
 }
 
 std::string options_as_yaml(const std::vector<OptionField>& fields) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/options/former_names.hpp"
 #include "vantage/options/text_value.hpp"
 
 // One description serves the YAML file, the command line and the documents. An options struct has beside it
@@ -27,6 +28,7 @@ struct OptionField {
   std::string expected;                       // what a value must be, for errors
   std::function<bool(std::string_view)> set;  // false, and no change, where the text is not understood
   std::function<std::string()> text;          // the value now
+  std::vector<FormerName> former = {};        // names that still work, with a hint
 };
 
 /// How an option is read and shown; an optional one may be `none`.
@@ -63,7 +65,7 @@ class OptionCollector {
     fields.push_back({std::string(name), std::string(unit), std::string(meaning), kind_of<T>(),
                       OptionValue<T>::expected(),
                       [&member](std::string_view text) { return OptionValue<T>::assign(member, text); },
-                      [&member] { return OptionValue<T>::print(member); }});
+                      [&member] { return OptionValue<T>::print(member); }, former_names(name)});
   }
 
   std::vector<OptionField> fields;
@@ -106,9 +108,16 @@ void set_option(const OptionField& field, std::string_view text, const std::stri
 
 /// Sets the options that a YAML map names; lists like [0, 0, 1] are the same as texts like 0,0,1. Throws InputError
 /// with `name`, the line and what would be right where the YAML is malformed, a key is unknown (the nearest name is
-/// suggested) or stands twice, or a value is of the wrong type. `also_known` keys belong to others and are passed over.
-void set_options_from_yaml(const std::vector<OptionField>& fields, std::string_view yaml, const std::string& name,
-                           const std::vector<std::string>& also_known = {});
+/// suggested) or stands twice, a value is of the wrong type, or a newer program wrote the file (configuration_head()).
+/// `also_known` keys belong to others and are passed over. Returns a line for people per former name that is used.
+std::vector<std::string> set_options_from_yaml(const std::vector<OptionField>& fields, std::string_view yaml,
+                                               const std::string& name,
+                                               const std::vector<std::string>& also_known = {});
+
+/// A comment for the head of a configuration, by which an older program knows that it does not understand a newer one.
+[[nodiscard]] std::string configuration_head();
+/// Throws InputError where the comments at the beginning say that the configuration is of a newer format.
+void require_known_configuration(std::string_view yaml, const std::string& name);
 
 /// All options as YAML, one per line, with unit and meaning as comments; set_options_from_yaml() gives the same values.
 [[nodiscard]] std::string options_as_yaml(const std::vector<OptionField>& fields);

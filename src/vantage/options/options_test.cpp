@@ -163,6 +163,39 @@ TEST(Options, BadYamlIsRefusedWithPlaceValueAndReason) {
   EXPECT_THAT(yaml_error("voxel: 1\n\tseed: 2\n"), HasSubstr("config.yaml, line "));
 }
 
+TEST(Options, FormerNamesWorkWithAHint) {
+  ExampleOptions o;
+  std::vector<OptionField> fields = option_fields(o);
+  fields[3].former = {{"voxel-size", "0.2.0"}};
+  ASSERT_EQ(fields[3].name, "voxel");
+  EXPECT_THAT(
+      set_options_from_yaml(fields, "max-views: 3\nvoxel-size: 0.5\n", "config.yaml"),
+      ElementsAre("config.yaml, line 2: voxel-size is called voxel since version 0.2.0; the former name goes on "
+                  "working for one version"));
+  EXPECT_EQ(o.voxel, 0.5);
+  EXPECT_THAT(set_options_from_yaml(fields, "voxel: 0.25\n", "config.yaml"), ElementsAre());
+  EXPECT_EQ(o.voxel, 0.25);
+  EXPECT_EQ(input_error_of([&] { (void)set_options_from_yaml(fields, "voxel: 1\nvoxel-size: 2\n", "config.yaml"); }),
+            "config.yaml, line 2: option 'voxel' stands twice");
+  EXPECT_EQ(input_error_of([&] { (void)set_options_from_yaml(fields, "voxel-size: x\n", "config.yaml"); }),
+            "config.yaml, line 1: voxel-size = 'x': must be a finite number");
+}
+
+TEST(Options, ConfigurationsOfNewerProgramsAreRefusedWhole) {
+  ExampleOptions o;
+  const auto read = [&](const std::string& yaml) {
+    (void)set_options_from_yaml(option_fields(o), yaml, "config.yaml");
+  };
+  read("# vantage reconstruct mug\n" + configuration_head() + "voxel: 0.5\n");
+  EXPECT_EQ(o.voxel, 0.5);
+  read("voxel: 0.25\n# configuration of vantage, format 2\n");  // a comment like any other
+  EXPECT_EQ(o.voxel, 0.25);
+  EXPECT_EQ(input_error_of([&] { read("# made by hand\n# configuration of vantage, format 2\nvoxel: 0.5\n"); }),
+            "config.yaml: has format 2; this program knows 1, take the program that wrote it, or a newer one");
+  EXPECT_EQ(o.voxel, 0.25);
+  read("# only a comment");
+}
+
 TEST(Options, DamagedYamlIsReadOrRefused) {
   ExampleOptions o = unusual();
   const std::string valid = options_as_yaml(option_fields(o));

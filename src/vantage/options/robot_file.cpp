@@ -17,9 +17,13 @@
 namespace vantage {
 namespace {
 
+/// Former ones too.
 std::vector<std::string> names_of(const std::vector<OptionField>& fields) {
   std::vector<std::string> names;
-  for (const OptionField& field : fields) names.push_back(field.name);
+  for (const OptionField& field : fields) {
+    names.push_back(field.name);
+    for (const FormerName& former : field.former) names.push_back(former.name);
+  }
   return names;
 }
 
@@ -189,12 +193,13 @@ std::vector<OptionField> noting(std::vector<OptionField> fields, std::set<std::s
   return fields;
 }
 
-void load_robot(ReconstructOptions& options, const std::set<std::string>& given) {
-  if (options.robot) set_robot(options, read_file(*options.robot), *options.robot, given);
+std::vector<std::string> load_robot(ReconstructOptions& options, const std::set<std::string>& given) {
+  if (!options.robot) return {};
+  return set_robot(options, read_file(*options.robot), *options.robot, given);
 }
 
-void set_robot(ReconstructOptions& options, const std::string& text, const std::filesystem::path& file,
-               const std::set<std::string>& given) {
+std::vector<std::string> set_robot(ReconstructOptions& options, const std::string& text,
+                                   const std::filesystem::path& file, const std::set<std::string>& given) {
   const std::string name = file.string();
   // A full disk leaves such files: a robot without limits is not what anybody means by one.
   require(!parse_yaml(text, name).IsNull(), name, ": says nothing; must say at least `kind: free-flyer`");
@@ -208,16 +213,19 @@ void set_robot(ReconstructOptions& options, const std::string& text, const std::
   set_options_from_yaml(fields_named(all, {"kind"}), text, name, known);
   try {
     const std::vector<OptionField> of_kind = fields_named(all, robot_option_names(robot.kind));
-    set_options_from_yaml(of_kind, text, name, names_of(of_program));
+    std::vector<std::string> hints = set_options_from_yaml(of_kind, text, name, names_of(of_program));
     known = names_of(of_kind);
     known.insert(known.end(), given.begin(), given.end());
+    for (const std::string& each : names_of(fields_named(of_program, {given.begin(), given.end()})))
+      known.push_back(each);
     std::erase_if(of_program, [&given](const OptionField& field) { return given.contains(field.name); });
-    set_options_from_yaml(of_program, text, name, known);
+    for (std::string& hint : set_options_from_yaml(of_program, text, name, known)) hints.push_back(std::move(hint));
     // What the file itself says is seen from the file.
     if (options.package && !given.contains("package"))
       options.package = absolute_packages(*options.package, file.parent_path());
     options.robot_model = make_robot(robot, options.reach_options(), file.parent_path(),
                                      options.package ? packages_from_text(*options.package) : Packages{});
+    return hints;
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(name)) throw;

@@ -76,12 +76,13 @@ void describe(RobotDescription& o, Field&& field) {
 
 /// Reads the robot that `options.robot` names into `options.robot_model`; nothing where it names none. Other keys of
 /// the file are the program's options: they set those of `options` that are not `given` otherwise. Body radius,
-/// workspace and obstacles of the options count for the robot too. Throws InputError with the file and the line.
-void load_robot(ReconstructOptions& options, const std::set<std::string>& given = {});
+/// workspace and obstacles of the options count for the robot too. Returns a line for people per former name that the
+/// file uses. Throws InputError with the file and the line.
+std::vector<std::string> load_robot(ReconstructOptions& options, const std::set<std::string>& given = {});
 
 /// The same with the text of the robot's file, which would be called `file`.
-void set_robot(ReconstructOptions& options, const std::string& text, const std::filesystem::path& file,
-               const std::set<std::string>& given = {});
+std::vector<std::string> set_robot(ReconstructOptions& options, const std::string& text,
+                                   const std::filesystem::path& file, const std::set<std::string>& given = {});
 
 /// The same fields, noting in `given` the names of those that are set.
 [[nodiscard]] std::vector<OptionField> noting(std::vector<OptionField> fields, std::set<std::string>& given);

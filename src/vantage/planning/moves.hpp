@@ -24,6 +24,10 @@ class Moves {
   /// Takes the costs of moves to these candidates as they are known before any path is planned, and returns x of eq. 10
   /// for every candidate: the cost over the largest of them. Empty where the travel is not asked to count so.
   [[nodiscard]] std::vector<double> normalised_costs(const std::vector<int>& feasible);
+  /// Costs are counted as in an earlier plan from here, whose largest_cost() this is: views that fell out since then
+  /// change nothing about the others.
+  void normalise_by(double largest_cost) { largest_cost_ = largest_cost; }
+  [[nodiscard]] double largest_cost() const { return largest_cost_; }
 
   /// Plans the way to the front of the ranking. Where that costs more than was known, `evaluated_anew` is asked for the
   /// evaluation with the new x of eq. 10 and the view takes its new place; where there is no way, the view falls out

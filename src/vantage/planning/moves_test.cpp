@@ -149,6 +149,29 @@ TEST_F(MovesOfThePlanner, TheNextInRankIsWhatPlanningWithoutTheDiscardedViewGive
   EXPECT_EQ(views, 10);
 }
 
+TEST_F(MovesOfThePlanner, RefusingTheFarthestViewChangesNothingAboutTheOthers) {
+  // Its cost is what the others' costs are counted by. Shifted candidates make it far off without making it likely.
+  candidates.views.push_back(view_towards(Vec3(0, -3, 4), Vec3::Zero()));
+  const int farthest = static_cast<int>(candidates.views.size()) - 1;
+  robot->detour = 1.3;
+  Planner planner(candidates, camera, options());
+  auto plan = planner.next_best_view(map, current);
+  ASSERT_TRUE(plan);
+  const double largest = (candidates.views.back().position() - current.position()).norm();
+  EXPECT_DOUBLE_EQ(plan->largest_cost, largest);
+  const std::vector<Evaluation> before = plan->ranking;
+  plan->best = *std::find_if(before.begin(), before.end(), [&](const auto& e) { return e.candidate == farthest; });
+  const auto next = planner.next_in_rank(map, current, *std::move(plan), "jammed");
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->best.candidate, before.front().candidate);
+  EXPECT_EQ(next->best.score, before.front().score);
+  // The detour of views that come to the front is counted by the same length.
+  auto later = planner.next_in_rank(map, current, *next, "jammed");
+  ASSERT_TRUE(later);
+  const double cost = robot->length(current.position(), later->best.view.position());
+  EXPECT_DOUBLE_EQ(later->best.factors.f_navigation, factors(later->best.seen, cost / largest, {}).f_navigation);
+}
+
 TEST_F(MovesOfThePlanner, StraightAndOrthodromicTravelNeedNoRobot) {
   PlannerOptions straight;
   straight.travel = TravelKind::straight;

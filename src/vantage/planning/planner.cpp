@@ -171,6 +171,7 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
                                feasible,
                                static_cast<int>(set_aside_.size())};
   plan.feasible = feasible.size();
+  plan.largest_cost = moves.largest_cost();
   plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
   if (options_.believed_error) expect_errors(plan, problem, map);
@@ -209,6 +210,7 @@ std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& curre
   --plan.feasible;
   plan.move = {};
   Moves moves(options_, candidates_, travel(), map, state_behind(current));
+  moves.normalise_by(plan.largest_cost);
   const VisibilityEvaluator visibility(map);
   const ViewEvaluation problem{map,
                                visibility,
@@ -219,7 +221,7 @@ std::optional<Plan> Planner::next_in_rank(const VoxelMap& map, const View& curre
                                current,
                                options_.factors,
                                utility_,
-                               moves.normalised_costs(ranked),
+                               {},
                                scanned_,
                                options_.seed,
                                ranked,

@@ -59,6 +59,7 @@ struct Plan {
   std::vector<Evaluation> ranking;     // views that were evaluated to the end, best first
   std::vector<Evaluation> infeasible;  // candidates that fell out, with the reason
   std::size_t feasible = 0;            // candidates that could be chosen; more than are ranked where time ran out
+  double largest_cost = 0;             // of moves to them, which x of eq. 10 refers to; 0 where it is an angle
   std::string explanation;             // one sentence for people
 };
 

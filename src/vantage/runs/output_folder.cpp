@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/files/format_version.hpp"
 
 namespace vantage {
 namespace {
@@ -16,7 +18,9 @@ constexpr const char* marker = ".vantage-run";
 constexpr const char* lock_file = ".lock";
 constexpr const char* folder_in_use =
     "another run or another experiment is writing there; wait for it or choose another --out";
-constexpr std::string_view marker_start = "# vantage run, format 1\ncommand: ";
+constexpr std::string_view format_line = "# vantage run, format ";
+constexpr int run_format = 1;
+constexpr std::string_view command_line = "\ncommand: ";
 
 /// Whether a name fits a pattern with one `*`, which stands for digits.
 bool fits(std::string_view name, std::string_view pattern) {
@@ -46,8 +50,15 @@ std::string text_of(const fs::path& file) {
 /// The command that made the folder, or empty. Folders of earlier versions have no marker, but a configuration.
 std::string maker_of(const fs::path& folder) {
   const std::string text = text_of(folder / marker);
-  if (text.starts_with(marker_start))
-    return text.substr(marker_start.size(), text.find('\n', marker_start.size()) - marker_start.size());
+  if (text.starts_with(format_line)) {
+    int found = 0;
+    std::from_chars(text.data() + format_line.size(), text.data() + text.size(), found);
+    require_known_format(found, run_format, (folder / marker).string());
+    if (const std::size_t at = text.find(command_line); at != std::string::npos) {
+      const std::size_t begin = at + command_line.size();
+      return text.substr(begin, text.find('\n', begin) - begin);
+    }
+  }
   const std::string config = text_of(folder / "config.yaml");
   constexpr std::string_view start = "# vantage ";
   std::error_code ignored;
@@ -129,7 +140,7 @@ OutputFolder::OutputFolder(const fs::path& path, const OutputNames& names, Forei
   lock_.emplace(path, folder_in_use);
   if (foreign == ForeignFiles::refuse) require_ours(path, names);
   remove_unfinished(path / marker);
-  write_file_atomically(path / marker, fmt::format("{}{}\n", marker_start, names.command));
+  write_file_atomically(path / marker, fmt::format("{}{}{}{}\n", format_line, run_format, command_line, names.command));
   remove_old_output(path, names);
 }
 

@@ -84,6 +84,20 @@ TEST(OutputFolder, KnowsRunsOfEarlierVersionsByTheirFiles) {
   EXPECT_THAT(input_error_of([&] { const OutputFolder run(folder / "c", names("plan")); }), HasSubstr("config.yaml"));
 }
 
+TEST(OutputFolder, LeavesRunsOfNewerProgramsAsTheyAre) {
+  const TestFolder folder;
+  for (const char* name : {"summary.json", "views.csv"}) write(folder / "r" / name, "x");
+  write(folder / "r" / "config.yaml", "# vantage reconstruct mug --config THIS_FILE\n");
+  write(folder / "r" / ".vantage-run", "# vantage run, format 2\ncommand: reconstruct\n");
+  for (const char* command : {"reconstruct", "experiment", "session"})
+    EXPECT_THAT(input_error_of([&] { const OutputFolder run(folder / "r", names(command)); }),
+                HasSubstr(".vantage-run: has format 2; this program knows 1"));
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "r")) files += entry.is_regular_file() ? 1 : 0;
+  EXPECT_EQ(files, 4U);
+  EXPECT_EQ(read_file(folder / "r" / "summary.json"), "x");
+}
+
 TEST(OutputFolder, IsOfOneRunAtATime) {
   const TestFolder folder;
   const OutputFolder run(folder / "r", names("plan"));

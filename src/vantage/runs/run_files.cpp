@@ -117,6 +117,7 @@ Json sensor_json(const SensorModel& sensor) {
 
 Json summary_json(const ObjectModel& model, const RunSummary& summary) {
   Json json;
+  json["format"] = summary_format;
   json["object"] = summary.object;
   json["views"] = model.scans.size();
   json["occupied"] = model.map.count(Label::occupied);

@@ -35,6 +35,8 @@ struct RunSummary {
 /// One scan as the keys of spec section 10; absent values are null. Poses are arrays of 7 numbers.
 [[nodiscard]] nlohmann::ordered_json scan_json(const ScanRecord& record);
 
+/// Of `summary.json`, the key `format`; 0.1 wrote none.
+constexpr int summary_format = 1;
 /// The content of `summary.json`.
 [[nodiscard]] nlohmann::ordered_json summary_json(const ObjectModel& model, const RunSummary& summary);
 

@@ -11,6 +11,7 @@
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
 #include "vantage/formats/pose_file.hpp"
+#include "vantage/options/options.hpp"
 #include "vantage/runs/run_document.hpp"
 #include "vantage/runs/run_log.hpp"
 
@@ -50,11 +51,11 @@ void write_frame(const std::filesystem::path& folder, const ScanRecord& record, 
   write_pose(folder / (name + ".pose.txt"), record.registered.world_from_sensor);
   if (record.scan > 0) return;
   write_file_atomically(folder / "camera-intrinsics.txt", intrinsics_text(image.camera));
-  write_file_atomically(
-      folder / "scans.yaml",
-      fmt::format("# vantage plan THIS_FOLDER --config THIS_FILE\ndepth-scale: {}\nno-return: {}\n"
-                  "depth-range: [{}, {}]\n",
-                  encoding.metres_per_unit, no_return, image.camera.min_depth, image.camera.max_depth));
+  write_file_atomically(folder / "scans.yaml",
+                        fmt::format("# vantage plan THIS_FOLDER --config THIS_FILE\n{}depth-scale: {}\nno-return: {}\n"
+                                    "depth-range: [{}, {}]\n",
+                                    configuration_head(), encoding.metres_per_unit, no_return, image.camera.min_depth,
+                                    image.camera.max_depth));
 }
 
 }  // namespace

@@ -9,9 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/format_version.hpp"
 #include "vantage/files/json_text.hpp"
 #include "vantage/files/yaml_text.hpp"
+#include "vantage/options/options.hpp"
 #include "vantage/registration/registration.hpp"
+#include "vantage/runs/run_files.hpp"
 
 namespace vantage {
 namespace {
@@ -52,6 +55,8 @@ std::optional<std::string> text_of(const YAML::Node& config, const char* key, co
 StoredSummary parse_run_summary(std::string_view bytes, const std::string& name) {
   const nlohmann::json summary = parse_json(bytes, name);
   require(summary.is_object(), name, ": must be an object, is ", summary.type_name());
+  const nlohmann::json format = summary.value("format", nlohmann::json(summary_format));
+  require_known_format(json_number(format, name + ", format"), summary_format, name);
   StoredSummary result;
   if (summary.contains("object")) {
     const nlohmann::json& object = summary["object"];
@@ -84,6 +89,7 @@ StoredSummary parse_run_summary(std::string_view bytes, const std::string& name)
 }
 
 StoredConfig parse_run_config(std::string_view bytes, const std::string& name) {
+  require_known_configuration(bytes, name);
   const YAML::Node config = parse_yaml(bytes, name);
   if (config.IsNull()) return {};
   require(config.IsMap(), name, ": must be a list of lines 'option: value'");

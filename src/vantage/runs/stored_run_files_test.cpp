@@ -43,5 +43,16 @@ TEST(StoredRunFiles, SummariesOfEarlierVersionsHaveOnlyTheWord) {
   EXPECT_EQ(refused, 6);
 }
 
+TEST(StoredRunFiles, OfNewerProgramsAreRefused) {
+  EXPECT_TRUE(parse_run_summary(R"({"format": 1, "scans": []})", "summary.json").scans.empty());
+  EXPECT_EQ(input_error_of([] { (void)parse_run_summary(R"({"format": 2, "views": []})", "summary.json"); }),
+            "summary.json: has format 2; this program knows 1, take the program that wrote it, or a newer one");
+  EXPECT_THAT(input_error_of([] { (void)parse_run_summary(R"({"format": "new"})", "summary.json"); }),
+              testing::HasSubstr("summary.json, format"));
+  EXPECT_THAT(
+      input_error_of([] { (void)parse_run_config("# configuration of vantage, format 2\ncamera: x\n", "c.yaml"); }),
+      testing::HasSubstr("c.yaml: has format 2"));
+}
+
 }  // namespace
 }  // namespace vantage

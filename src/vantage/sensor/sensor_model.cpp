@@ -92,6 +92,7 @@ constexpr std::array<std::pair<const char*, SensorModel (*)()>, 6> presets{{
 /// The value in thousandths with three significant digits: metres as millimetres.
 std::string thousandths(double value) {
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // a stream by itself cuts the text off where memory is short
   text.precision(3);
   text << 1000 * value;
   return text.str();

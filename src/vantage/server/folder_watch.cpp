@@ -6,6 +6,8 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/files/format_version.hpp"
+#include "vantage/files/json_text.hpp"
 #include "vantage/report/report.hpp"
 #include "vantage/runs/run_log.hpp"
 
@@ -117,6 +119,7 @@ void FolderWatch::show_report() {
   const std::string format = document->is_object() ? document->value("format", "") : "";
   require(format == "vantage-run" || format == "vantage-experiment", path.string(),
           ": is the report of no run and of no experiment");
+  require_known_format(json_number(document->value("version", Json(1)), path.string() + ", version"), 1, path.string());
   run_.begin(std::move(*document));
 }
 

@@ -141,10 +141,12 @@ TEST_F(FolderWatchTest, SaysWhatIsWrongWithAFolder) {
   EXPECT_THROW(FolderWatch(folder_ / "none", run_), InputError);
   std::filesystem::remove(folder_ / "scans");
   EXPECT_THROW(FolderWatch(folder_, run_), InputError);
-  for (const char* report : {"no data", R"(<script type="application/json" id="vantage-data"></script>)",
-                             R"(<script type="application/json" id="vantage-data">{</script>)",
-                             R"(<script type="application/json" id="vantage-data">{"format")",
-                             R"(<script type="application/json" id="vantage-data">{"format":"other"}</script>)"}) {
+  for (const char* report :
+       {"no data", R"(<script type="application/json" id="vantage-data"></script>)",
+        R"(<script type="application/json" id="vantage-data">{</script>)",
+        R"(<script type="application/json" id="vantage-data">{"format")",
+        R"(<script type="application/json" id="vantage-data">{"format":"other"}</script>)",
+        R"(<script type="application/json" id="vantage-data">{"format":"vantage-run","version":2}</script>)"}) {
     write("report.html", report);
     FolderWatch watch(folder_, run_);
     EXPECT_THROW(watch.look(), InputError) << report;

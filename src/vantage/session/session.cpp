@@ -60,6 +60,8 @@ void Session::replay() {
 
 int Session::store(SessionScan scan) {
   scan.validate();
+  // Another key would not be known again. Those that are stored already may be of 0.1, which took any.
+  require_plain_text(scan.key, fmt::format("scan {}: its key", scan.name));
   const std::lock_guard storing(storing_);
   if (const auto found = number_of_key_.find(scan.key); found != number_of_key_.end()) return found->second;
   const int number = folder_.store(scan);

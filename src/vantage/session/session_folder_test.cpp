@@ -57,8 +57,16 @@ TEST_F(SessionFolderTest, OpensOptionsOfTheFirstFormatAndNamesNewerOnes) {
   write_file_atomically(file("options.yaml"),
                         "# vantage session, format 1\nbox: [0, 0, 0, 1, 1, 1]\nvoxel: 0.1\nviews: 80\n");
   EXPECT_EQ(SessionFolder::options_of(session_).scene.views, 80);
-  write_file_atomically(file("options.yaml"), "# vantage session, format 3\nbox: here\n");
+  const std::string newer = "# vantage session, format 3\nbox: here\n";
+  write_file_atomically(file("options.yaml"), newer);
+  write_file_atomically(file("000000.scan.1-0.tmp"), "of a newer program");
+  write_file_atomically(file("000001.scan"), "of a newer program");
+  std::filesystem::remove(file(".lock"));
   EXPECT_THAT(input_error_of([&] { const Session session(session_); }), HasSubstr("has format 3"));
+  EXPECT_FALSE(std::filesystem::exists(file(".lock")));
+  for (const char* name : {"000000.scan.1-0.tmp", "000001.scan"})
+    EXPECT_EQ(read_file(file(name)), "of a newer program");
+  EXPECT_EQ(read_file(file("options.yaml")), newer);
 }
 
 TEST_F(SessionFolderTest, IsMadeOnce) {

@@ -19,7 +19,8 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
   description.object = name_of_folder(session.folder());
   description.program = VANTAGE_VERSION;
   for (const OptionField& field : fields) description.options.emplace_back(field.name, field.text());
-  description.config = "# vantage session new ANOTHER_FOLDER --config THIS_FILE\n" + options_as_yaml(fields);
+  description.config =
+      "# vantage session new ANOTHER_FOLDER --config THIS_FILE\n" + configuration_head() + options_as_yaml(fields);
   description.camera = planner.camera();
   description.candidates = planner.candidates();
   description.candidates_text = fmt::format("sphere:{}:{:.3f}", options.scene.views, state.radius);

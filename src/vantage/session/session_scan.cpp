@@ -10,7 +10,6 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/json_text.hpp"
-#include "vantage/files/plain_text.hpp"
 
 namespace vantage {
 namespace {
@@ -137,7 +136,6 @@ std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 void SessionScan::validate() const {
   require_pose(believed, concat("scan ", name, ": its pose"));
   if (commanded) require_pose(*commanded, concat("scan ", name, ": the commanded pose"));
-  require_plain_text(key, concat("scan ", name, ": its key"));
   require(!candidate || *candidate >= 0, "scan ", name, ": candidate = ", candidate.value_or(0),
           ": must not be negative");
   if (const auto* image = std::get_if<ImageScan>(&scan)) {

@@ -19,8 +19,7 @@ struct SessionScan {
   std::optional<View> commanded = {};  // where the sensor was sent; without it, the candidate's view at that time
   std::string key = {};                // the sender's own: a session stores only one scan with it
 
-  /// Throws InputError where the scan or its pose has numbers that are not finite, or the key is not plain text: it
-  /// would not be known again.
+  /// Throws InputError where the scan or its pose has numbers that are not finite.
   void validate() const;
 };
 

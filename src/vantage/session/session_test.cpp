@@ -240,6 +240,12 @@ TEST(SessionScan, IsTheSameAfterStoring) {
   EXPECT_EQ(std::get<ImageScan>(plate_read.scan).image.camera.left, std::get<ImageScan>(plate.scan).image.camera.left);
 }
 
+TEST(SessionScan, KeysThatWereStoredOnceStayReadable) {
+  SessionScan scan = plate_from({0, 0, 2});
+  scan.key = "scan\t1";  // refused today
+  EXPECT_EQ(parse_scan(scan_bytes(scan), "scan").key, scan.key);
+}
+
 TEST(SessionScan, DamagedBytesAreReadOrRefused) {
   const FuzzCount count = read_damaged(scan_bytes(plate_from({0, 0, 2})), 2000, [](const std::string& bytes) {
     try {
