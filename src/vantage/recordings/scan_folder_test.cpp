@@ -171,8 +171,8 @@ TEST(ScanFolder, WhatIsMissingIsNamed) {
   const auto error = [&](const ScanFolderOptions& options = {}) {
     return input_error_of([&] { (void)open_scans(folder.path(), options); });
   };
-  EXPECT_THAT(error(),
-              HasSubstr("has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, a .conf file"));
+  EXPECT_THAT(error(), HasSubstr("has no scans; must have NAME.depth.png, .exr, .tif, .npy, .pfm or .raw, NAME.ply, "
+                                 ".pcd or .xyz, a .conf file"));
   EXPECT_THAT(input_error_of([&] { (void)open_scans(folder / "none"); }),
               HasSubstr("none: there is no such file or folder"));
   write_frames(folder, {"a"});
