@@ -56,8 +56,8 @@ class Memory(unittest.TestCase):
                 many = ((frame_files.START_NS + i * frame_files.STEP_NS, some[i % len(some)][1], some[i % len(some)][0])
                         for i in range(count))
                 ros_writers.write_mcap(path, ros_writers.messages(width, height, k, many, True))
-                peaks["doctor"].append(peak_mb("doctor", path, *OPTIONS))
-                peaks["plan"].append(peak_mb("plan", path, *PLAN))
+                peaks["doctor"].append(peak_mb("doctor", path, *OPTIONS, "--quiet"))
+                peaks["plan"].append(peak_mb("plan", path, *PLAN, "--quiet"))
             for command, found in peaks.items():
                 print(command, ", ".join(f"{count} frames: {peak:.0f} MB" for count, peak in zip(COUNTS, found)))
                 self.assertLess(max(found), MOST_MB, command)
