@@ -19,6 +19,8 @@ vantage_require(formats fmt)
 vantage_require(formats nlohmann_json)
 vantage_require(formats yaml-cpp)
 vantage_require(formats PNG)
+vantage_require(formats OpenEXR)
+vantage_require(formats TIFF)
 vantage_require(formats liblzf)
 vantage_require(formats ZLIB)
 vantage_require(formats SQLite3)
@@ -26,7 +28,7 @@ vantage_require(formats BZip2)
 vantage_library(formats files formats recordings)
 # Debian's zstd and lz4 have no CMake files; they lie where every compiler looks.
 target_link_libraries(vantage_formats PUBLIC vantage_core nlohmann_json::nlohmann_json
-  PRIVATE fmt::fmt yaml-cpp PNG::PNG liblzf::liblzf ZLIB::ZLIB SQLite::SQLite3 BZip2::BZip2 zstd lz4)
+  PRIVATE fmt::fmt yaml-cpp PNG::PNG OpenEXR::OpenEXRCore TIFF::TIFF liblzf::liblzf ZLIB::ZLIB SQLite::SQLite3 BZip2::BZip2 zstd lz4)
 vantage_unity(vantage_formats)
 
 vantage_library(session options runs session)

@@ -3,7 +3,7 @@
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   message(FATAL_ERROR "VANTAGE_FUZZ needs clang, which has libFuzzer: cmake --preset fuzz")
 endif()
-foreach(package fmt nlohmann_json yaml-cpp PNG ZLIB liblzf fcl urdfdom SQLite3 BZip2)
+foreach(package fmt nlohmann_json yaml-cpp PNG OpenEXR TIFF ZLIB liblzf fcl urdfdom SQLite3 BZip2)
   find_package(${package} REQUIRED)
 endforeach()
 
@@ -25,7 +25,7 @@ target_compile_definitions(fuzzed_readers PRIVATE VANTAGE_EXAMPLES="${PROJECT_SO
   VANTAGE_VERSION="${PROJECT_VERSION}")
 target_compile_options(fuzzed_readers PUBLIC -O1 -g1 -ffp-contract=off -fsanitize=fuzzer-no-link,address,undefined
   -fno-sanitize-recover=all)
-target_link_libraries(fuzzed_readers PUBLIC vantage_core fcl Eigen3::Eigen TBB::tbb fmt::fmt nlohmann_json::nlohmann_json yaml-cpp PNG::PNG
+target_link_libraries(fuzzed_readers PUBLIC vantage_core fcl Eigen3::Eigen TBB::tbb fmt::fmt nlohmann_json::nlohmann_json yaml-cpp PNG::PNG OpenEXR::OpenEXRCore TIFF::TIFF
     ZLIB::ZLIB liblzf::liblzf urdfdom::urdfdom_model SQLite::SQLite3 BZip2::BZip2 zstd lz4)
 
 # vantage_fuzzer(READERS GROUP...): one program per group of readers.

@@ -140,6 +140,15 @@ if(VANTAGE_APPS)
   set_tests_properties(session.http.slow PROPERTIES LABELS slow TIMEOUT 2400)
 endif()
 
+# The same scans as data sets and bags give the same plan; memory does not grow with the length of a recording.
+if(VANTAGE_APPS)
+  foreach(test same_plan memory)
+    add_test(NAME recordings.${test} COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/recordings/${test}_test.py
+      $<TARGET_FILE:vantage> ${VANTAGE_SHARED_DATA} 3)
+    set_tests_properties(recordings.${test} PROPERTIES LABELS slow TIMEOUT 1200)
+  endforeach()
+endif()
+
 # Half a minute of fuzzing for each group of readers; it builds them first. The groups of bags are fuzzed by hand:
 # `fuzz/run 600 bag message packed`.
 find_program(VANTAGE_FUZZ_CLANG clang++-16)

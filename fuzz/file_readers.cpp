@@ -19,6 +19,7 @@
 #include "vantage/formats/point_cloud_file.hpp"
 #include "vantage/formats/pose_file.hpp"
 #include "vantage/formats/pose_list.hpp"
+#include "vantage/formats/tiff.hpp"
 #include "vantage/runs/stored_run_files.hpp"
 #include "vantage/session/sealed_file.hpp"
 #include "vantage/session/session_scan.hpp"
@@ -102,6 +103,7 @@ const std::vector<Reader>& file_readers() {
        [](Bytes bytes) {
          (void)decode_png_grey(bytes, {3, 2}, "input");
        }},
+      {"depth_tiff", "image", [](Bytes bytes) { (void)decode_tiff(bytes, "input"); }},
       {"exr", "image", [](Bytes bytes) { (void)decode_exr(bytes, "input"); }},
       {"map_labels", "map",
        [](Bytes bytes) {

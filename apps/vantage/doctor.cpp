@@ -26,6 +26,8 @@ struct DoctorRequest {
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis) {
   nlohmann::ordered_json json{{"healthy", diagnosis.healthy()},
                               {"frames", diagnosis.frames},
+                              {"every", diagnosis.every},
+                              {"all_frames", diagnosis.all_frames},
                               {"agreement", diagnosis.agreement},
                               {"best_agreement", diagnosis.best_agreement},
                               {"contradiction", diagnosis.contradiction},
@@ -67,6 +69,7 @@ void print_diagnosis(const Diagnosis& diagnosis, Shown shown) {
       fmt::print("ok     {:<14}  looked for {}\n", check.name, check.looks_for);
     }
   }
+  if (diagnosis.every > 1) fmt::print("looked at every {}th of {} frames\n", diagnosis.every, diagnosis.all_frames);
   if (diagnosis.not_compared) {
     fmt::print("{} frames; nothing can be compared\n", diagnosis.frames);
   } else {

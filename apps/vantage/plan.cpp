@@ -68,6 +68,7 @@ void plan(PlanRequest& request) {
   if (!request.program.quiet) print_scan_set(set);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
+  pending = kept_for_second_reading(std::move(pending));
   ScanScene fitted = fit_scene(pending, request.options.scene);
   request.options.require_can_plan(fitted.scene);
   const RunDescription description = describe_run(request, request.options.camera(set.camera));

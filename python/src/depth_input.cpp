@@ -51,7 +51,7 @@ std::pair<Scan, View> read_depth(const DepthInput& input, const Pose& reported, 
   }
   const py::gil_scoped_release release;
   const View view{sensor_pose(reported, hand_eye_offset(options), options)};
-  return {cropped(scan_of_depth(pixels, intrinsics, mask, options), view, options), view};
+  return {scan_of_depth(pixels, intrinsics, mask, view, options), view};
 }
 
 void bind_depth_input(py::module_& module) {

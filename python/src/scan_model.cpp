@@ -80,6 +80,7 @@ std::unique_ptr<GrowingModel> model_of_folder(const std::filesystem::path& path,
   const ScanSet set = open_scans(path, options.reading);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
+  pending = kept_for_second_reading(std::move(pending));
   auto model = std::make_unique<GrowingModel>(options, fit_scene(pending, options.scene));
   for (const PendingScan& each : pending) {
     const ScanRecord record = model->add({.name = each.name}, each.read(), each.believed);

@@ -4,6 +4,25 @@
 #include "vantage/sensor/range_image.hpp"
 
 namespace vantage::python {
+
+/// An array of uint16 as it came: pybind11's own array_t loses what numpy.ma has masked in it.
+struct UnitsArray {
+  py::array array;
+};
+
+}  // namespace vantage::python
+
+template <>
+struct pybind11::detail::type_caster<vantage::python::UnitsArray> {
+  PYBIND11_TYPE_CASTER(vantage::python::UnitsArray, handle_type_name<array_t<std::uint16_t>>::name);
+  bool load(handle source, bool) {
+    if (!array_t<std::uint16_t>::check_(source)) return false;
+    value.array = reinterpret_borrow<array>(source);
+    return true;
+  }
+};
+
+namespace vantage::python {
 namespace {
 
 RangeCamera with_limits(RangeCamera camera, double min_depth, double max_depth, std::optional<double> max_incidence) {
@@ -31,10 +50,10 @@ RangeImage image_from_metres(const RangeCamera& camera, const py::array& given) 
   return image;
 }
 
-RangeImage image_from_units(const RangeCamera& camera, const py::array_t<std::uint16_t>& given, double depth_scale,
+RangeImage image_from_units(const RangeCamera& camera, const UnitsArray& given, double depth_scale,
                             std::optional<std::uint16_t> no_return) {
   camera.validate();
-  const py::array_t<std::uint16_t> pixels(without_masked(given, RangeImage::unknown));
+  const py::array pixels = without_masked(given.array, RangeImage::unknown);
   require_fits(pixels, camera);
   const auto packed = py::array_t<std::uint16_t, py::array::c_style>::ensure(pixels);
   const Gray16 grey{camera.resolution, {packed.data(), packed.data() + packed.size()}};

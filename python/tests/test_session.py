@@ -225,6 +225,21 @@ class Depths(InAFolder):
         scan, _ = vantage.scan_from_depth(units, INTRINSICS, np.eye(4), depth_scale=0.0001)
         np.testing.assert_allclose(scan.image.depth, 2, rtol=1e-6)
 
+    def test_what_numpy_has_masked_is_unknown(self):
+        hidden = np.zeros((60, 80), bool)
+        hidden[:, :30] = True
+        for depth in (np.full((60, 80), 2.0, np.float32), np.full((60, 80), 2000, np.uint16)):
+            scan, _ = vantage.scan_from_depth(np.ma.masked_array(depth, hidden), INTRINSICS, np.eye(4))
+            np.testing.assert_array_equal(scan.image.depth == 0, hidden)
+            counts = np.ma.masked_array(np.ones((60, 80), bool), hidden)  # a mask with masked elements: they do not count
+            scan, _ = vantage.scan_from_depth(depth, INTRINSICS, np.eye(4), mask=counts)
+            np.testing.assert_array_equal(scan.image.depth == 0, hidden)
+            image = vantage.RangeImage(scan.image.camera, np.ma.masked_array(depth, hidden))
+            np.testing.assert_array_equal(image.depth == 0, hidden)
+        with vantage.Session.new(self.folder / "masked", box=[0, 0, 2, 1, 1, 1], registration="none") as session:
+            record = session.add_depth(np.ma.masked_array(depth, np.ones_like(hidden)), INTRINSICS, np.eye(4))
+            self.assertEqual(record.new_occupied, 0)
+
     def test_distortion_is_taken_out(self):
         # k1 = -0.2: the ideal pixel (row 29 + 20, column 39 + 30) has x = 30/95, y = 20/95, r^2 = 0.14404, and lies
         # in the distorted image at 1 - 0.2 r^2 = 0.97119 times these: column 39 + 29.136, row 29 + 19.424.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <variant>
 
 #include "vantage/core/error.hpp"
 #include "vantage/doctor/box.hpp"
@@ -24,15 +25,14 @@ ScanFolderOptions without_limits(ScanFolderOptions options) {
 }
 
 /// Images whose size the intrinsics have the other way round cannot be read at all.
-std::optional<Finding> wrong_size(const std::filesystem::path& path, const ScanFolderOptions& options) {
+std::variant<ScanSet, Finding> opened(const std::filesystem::path& path, const ScanFolderOptions& options) {
   try {
-    (void)open_scans(path, options);
+    return open_scans(path, options);
   } catch (const ResolutionError& error) {
     return Finding{"intrinsics", error.what(),
                    "write width and height as those of the images, or give the intrinsics of these images",
                    "the images cannot be read with them"};
   }
-  return std::nullopt;
 }
 
 /// Depths and positions in the same wrong unit fit each other.
@@ -97,20 +97,23 @@ Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& option
   };
 
   const ScanFolderOptions reading = without_limits(options.folder);
-  if (const auto finding = wrong_size(path, poses.options(reading, 0))) {
+  std::variant<ScanSet, Finding> first = opened(path, poses.options(reading, 0));
+  if (const auto* finding = std::get_if<Finding>(&first)) {
     add({*finding});
     return diagnosis;
   }
   Evidence evidence;
   Explained best;
   for (int way = 0; way < poses.readings(); ++way) {
-    const ScanSet set = open_scans(path, poses.options(reading, way));
+    const ScanSet set = way == 0 ? std::get<ScanSet>(std::move(first)) : open_scans(path, poses.options(reading, way));
     if (way == 0) {
       diagnosis.recognised = set.description;
       diagnosis.left_out = set.left_out;
       evidence = gather(set, options.folder.depth_range[1], options.folder,
                         [&](std::size_t done, std::size_t of) { progress(concat("reads frame ", done, " of ", of)); });
       diagnosis.frames = evidence.frames.size() + evidence.empty.size();
+      diagnosis.every = evidence.every;
+      diagnosis.all_frames = set.scans.size();
       add(check_frames(evidence));
       if (evidence.frames.size() < 2) {
         add(check_no_return(evidence));

@@ -31,7 +31,9 @@ void describe(DoctorOptions& o, Field&& field) {
 
 /// What is wrong with a set of scans.
 struct Diagnosis {
-  std::size_t frames = 0;
+  std::size_t frames = 0;             // looked at
+  std::size_t every = 1;              // of which only every n-th was, where there are many
+  std::size_t all_frames = 0;         // of the set, also those that were not looked at
   std::string recognised;             // ScanSet
   std::vector<std::string> left_out;  // ScanSet
   double agreement = 0;               // between the frames as given, 0..1; 0 where the poses cannot be read at all

@@ -7,6 +7,7 @@
 namespace vantage {
 namespace {
 
+constexpr std::size_t most_frames_gathered = 300;
 constexpr std::size_t most_points = 4000;  // of a frame: a point every few pixels, more than an outline needs
 
 double median(std::vector<double> values) {
@@ -101,8 +102,9 @@ Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& o
                 const std::function<void(std::size_t, std::size_t)>& progress) {
   Evidence evidence;
   evidence.camera = set.camera;
-  std::size_t done = 0;
-  for (const ScanFile& file : set.scans) {
+  evidence.every = std::max<std::size_t>(1, (set.scans.size() + most_frames_gathered - 1) / most_frames_gathered);
+  for (std::size_t i = 0; i < set.scans.size(); i += evidence.every) {
+    const ScanFile& file = set.scans[i];
     FrameEvidence frame;
     frame.name = file.name;
     frame.world_from_sensor = file.view.world_from_sensor;
@@ -127,7 +129,7 @@ Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& o
     } else {
       evidence.frames.push_back(std::move(frame));
     }
-    progress(++done, set.scans.size());
+    progress(i + 1, set.scans.size());
   }
   return evidence;
 }

@@ -28,13 +28,15 @@ struct Evidence {
   std::vector<FrameEvidence> frames;
   std::vector<std::string> empty;     // names of those that have none
   std::optional<RangeCamera> camera;  // of depth images
+  std::size_t every = 1;              // of long recordings every n-th frame is looked at
 
   [[nodiscard]] std::vector<Pose> poses() const;
   /// Over all frames.
   [[nodiscard]] double median_depth() const;
 };
 
-/// Reads every frame once. `far_limit`: depth in metres from which on an image says that nothing is there. What lies
+/// Reads every frame once, of more than 300 every second, third ... one, so that memory and time do not grow with
+/// their number. `far_limit`: depth in metres from which on an image says that nothing is there. What lies
 /// outside of the crop box of `options` is left out of the points, but counts as the sensor reported it.
 /// `progress(done, of)` is called after each.
 [[nodiscard]] Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& options,

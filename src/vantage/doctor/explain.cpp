@@ -44,7 +44,7 @@ std::vector<Hypothesis> mistakes(const Reading& base, const Evidence& evidence, 
   add(distances(base, evidence));
   add(misread_rotations(base));
   add(other_intrinsics(base, evidence));
-  add(shifted_times(base));
+  add(shifted_times(base, evidence.every));
   add(mirrored_worlds(base));
   add(unusual_axes(base));
   add(disparities(base, evidence));

@@ -38,8 +38,8 @@ struct Hypothesis {
 [[nodiscard]] std::vector<Hypothesis> misread_rotations(const Reading& base);
 /// Poses of a left-handed world, whose rotations are proper all the same.
 [[nodiscard]] std::vector<Hypothesis> mirrored_worlds(const Reading& base);
-/// Poses of other frames, some places later or earlier.
-[[nodiscard]] std::vector<Hypothesis> shifted_times(const Reading& base);
+/// Poses of other frames, some places later or earlier; of frames of which only every n-th is looked at.
+[[nodiscard]] std::vector<Hypothesis> shifted_times(const Reading& base, std::size_t every);
 /// Intrinsics with cx and cy swapped, or of images of another size. Empty without a pinhole camera.
 [[nodiscard]] std::vector<Hypothesis> other_intrinsics(const Reading& base, const Evidence& evidence);
 /// Poses of the robot's hand, with the pose of the sensor in it estimated, as far as the frames say it. Empty where no

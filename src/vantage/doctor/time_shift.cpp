@@ -5,8 +5,8 @@
 
 namespace vantage {
 
-std::vector<Hypothesis> shifted_times(const Reading& base) {
-  constexpr int farthest = 5;  // frames
+std::vector<Hypothesis> shifted_times(const Reading& base, std::size_t every) {
+  constexpr int farthest = 5;  // frames that are looked at
   const auto count = static_cast<int>(base.world_from_sensor.size());
   std::vector<Hypothesis> hypotheses;
   for (int shift = -farthest; shift <= farthest; ++shift) {
@@ -17,7 +17,7 @@ std::vector<Hypothesis> shifted_times(const Reading& base) {
       const auto from = static_cast<std::size_t>((i + shift + count) % count);
       each.reading.world_from_sensor[static_cast<std::size_t>(i)] = base.world_from_sensor[from];
     }
-    const int frames = std::abs(shift);
+    const int frames = std::abs(shift) * static_cast<int>(every);
     const char* direction = shift > 0 ? "later" : "earlier";
     each.wrong = concat("the trajectory is shifted in time: each frame fits the pose of the frame ", frames,
                         frames == 1 ? " place " : " places ", direction);

@@ -11,6 +11,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
 #include "vantage/formats/float_images.hpp"
+#include "vantage/formats/tiff.hpp"
 
 namespace vantage {
 namespace {
@@ -62,7 +63,7 @@ Image without_masked(Image image, const Mask& mask) {
 }
 
 bool is_depth_ending(std::string_view ending) {
-  constexpr std::array<std::string_view, 5> endings{".png", ".exr", ".npy", ".pfm", ".raw"};
+  constexpr std::array<std::string_view, 7> endings{".png", ".exr", ".tif", ".tiff", ".npy", ".pfm", ".raw"};
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
@@ -141,6 +142,7 @@ DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>
                          std::int64_t most_pixels) {
   if (is_png(bytes)) return decode_png16(bytes, name, most_pixels);
   if (is_exr(bytes)) return decode_exr(bytes, name, most_pixels);
+  if (is_tiff(bytes)) return decode_tiff(bytes, name, most_pixels);
   if (is_npy(bytes)) return decode_npy(bytes, name, most_pixels);
   if (is_pfm(bytes)) return decode_pfm(bytes, name, most_pixels);
   require(raw.has_value(), name,
@@ -161,7 +163,7 @@ RangeImage parse_depth_raw(std::string_view bytes, const RangeCamera& camera, co
 RangeImage read_depth_image(const std::filesystem::path& path, const RangeCamera& camera,
                             const DepthEncoding& encoding) {
   require(is_depth_ending(path.extension().string()), path.string(),
-          ": a depth image must be a .png, .exr, .npy, .pfm or .raw file");
+          ": a depth image must be a .png, .exr, .tif, .npy, .pfm or .raw file");
   const DepthPixels pixels = decode_depth(read_file(path), camera.resolution, path.string());
   require_resolution(pixels, camera.resolution, path.string());
   return std::visit([&](const auto& image) { return range_image(image, camera, encoding); }, pixels);

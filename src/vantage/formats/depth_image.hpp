@@ -60,7 +60,7 @@ inline constexpr DepthEncoding own_depth_encoding{.metres_per_unit = 0.001, .no_
 /// What a depth image holds.
 using DepthPixels = std::variant<Gray16, FloatImage>;
 
-/// A depth image from memory: PNG (16 bit), OpenEXR, NumPy array or portable float map by their first bytes, else
+/// A depth image from memory: PNG (16 bit), OpenEXR, TIFF, NumPy array or portable float map by their first bytes, else
 /// float32, little endian, row by row, of the resolution `raw`. Throws InputError with `name` where it is damaged, of
 /// another kind, of another size, or has more than `most_pixels`.
 [[nodiscard]] DepthPixels decode_depth(std::string_view bytes, const std::optional<Resolution>& raw,
@@ -69,9 +69,9 @@ using DepthPixels = std::variant<Gray16, FloatImage>;
 /// Throws InputError with `name` where the image has another size than its camera.
 void require_resolution(const DepthPixels& pixels, Resolution camera, const std::string& name);
 
-/// The pixels of a depth image by the ending of its name: `.png` (16 bit, see DepthEncoding), `.exr`, `.npy`, `.pfm`,
-/// or `.raw` (float32, little endian, row by row). Throws InputError naming the file where it is damaged, of another
-/// kind, or not of the camera's resolution.
+/// The pixels of a depth image by the ending of its name: `.png` (16 bit, see DepthEncoding), `.exr`, `.tif`, `.npy`,
+/// `.pfm`, or `.raw` (float32, little endian, row by row). Throws InputError naming the file where it is damaged, of
+/// another kind, or not of the camera's resolution.
 [[nodiscard]] RangeImage read_depth_image(const std::filesystem::path& path, const RangeCamera& camera,
                                           const DepthEncoding& encoding);
 [[nodiscard]] RangeImage parse_depth_png(std::string_view bytes, const RangeCamera& camera,

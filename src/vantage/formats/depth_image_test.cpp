@@ -197,7 +197,7 @@ TEST(DepthImage, WrongSizesScalesAndNamesAreRefused) {
   EXPECT_THAT(input_error_of([] { DepthEncoding{.no_return = std::uint16_t{0}}.validate(); }),
               HasSubstr("no_return = 0"));
   EXPECT_THAT(input_error_of([] { (void)read_depth_image("a.jpg", small_camera(), {}); }),
-              HasSubstr("a.jpg: a depth image must be a .png, .exr, .npy, .pfm or .raw file"));
+              HasSubstr("a.jpg: a depth image must be a .png, .exr, .tif, .npy, .pfm or .raw file"));
 }
 
 TEST(DepthImage, DamagedFilesAreReadOrRefused) {

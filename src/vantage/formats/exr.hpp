@@ -18,9 +18,10 @@ struct FloatImage {
 [[nodiscard]] bool is_exr(std::string_view bytes);
 
 /// One channel of an OpenEXR image: the only one, or else `Z` or `Y` (also as the last word of a layer's name). Scan
-/// lines without compression, RLE, ZIPS or ZIP; pixels of 16 or 32 bits. Throws InputError with `name` where the bytes
-/// are something else, damaged, cut off, larger than 16384 pixels on a side, or have more than `most_pixels` (or
-/// channels of 64 bytes for each of them), which is asked before memory is taken.
+/// lines or tiles, of which the largest level is read, with ZIP, ZIPS, PIZ, PXR24, RLE or no compression; pixels of 16
+/// or 32 bits. Throws InputError with `name` where the bytes are something else, damaged, cut off, larger than 16384
+/// pixels on a side, or have more than `most_pixels` (or channels of 64 bytes for each of them), which is asked before
+/// memory is taken.
 [[nodiscard]] FloatImage decode_exr(std::string_view bytes, const std::string& name,
                                     std::int64_t most_pixels = any_pixels);
 

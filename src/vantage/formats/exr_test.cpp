@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 template <class Value>
 std::string raw(Value value) {
@@ -103,10 +104,11 @@ TEST(Exr, UnpacksRunsByHand) {
       << "the second row did not get smaller, so it is stored as it is";
 }
 
-// Written by OpenEXR 3.1.5, each with depths 0.5 + x + 10 y.
+// Written by OpenEXR 3.1.5, each with depths 0.5 + x + 10 y; the tiles of 8x8 and 5x7 pixels by its exrmaketiled.
 TEST(Exr, ReadsWhatOpenExrWrites) {
   int files = 0;
-  for (const char* name : {"none", "rle", "zips", "zip", "zip-half", "zip-rgbz", "zip-decreasing", "zip-offset"}) {
+  for (const char* name : {"none", "rle", "zips", "zip", "zip-half", "zip-rgbz", "zip-decreasing", "zip-offset", "piz",
+                           "tiled", "tiled-piz", "tiled-odd", "tiled-levels", "pxr24"}) {
     SCOPED_TRACE(name);
     const std::string path = concat(VANTAGE_FUZZ_CORPUS, "/image/exr/openexr-", name);
     const FloatImage image = decode_exr(read_file(path), path);
@@ -118,13 +120,14 @@ TEST(Exr, ReadsWhatOpenExrWrites) {
     }
     ++files;
   }
-  EXPECT_EQ(files, 8);
+  EXPECT_EQ(files, 14);
   const auto error = [](const char* name) {
     const std::string path = concat(VANTAGE_FUZZ_CORPUS, "/image/exr/openexr-", name);
     return input_error_of([&] { (void)decode_exr(read_file(path), name); });
   };
-  EXPECT_EQ(error("piz"), "piz: is compressed by PIZ; must be saved with ZIP, ZIPS, RLE or no compression");
-  EXPECT_THAT(error("tiled"), HasSubstr("must be saved as scan lines"));
+  EXPECT_EQ(error("dwaa"),
+            "dwaa: is compressed by DWAA, which changes depths; must be saved with ZIP, ZIPS, PIZ, PXR24, RLE or no "
+            "compression");
   EXPECT_THAT(error("cropped"), HasSubstr("holds only a part of its image; must be saved uncropped"));
 }
 
@@ -133,21 +136,21 @@ TEST(Exr, RefusesWhatIsDamagedAndSaysHow) {
     return input_error_of([&] { (void)decode_exr(image.bytes(), "a.exr"); });
   };
   EXPECT_EQ(input_error_of([] { (void)decode_exr("P6 3 2", "a.exr"); }), "a.exr: is not an OpenEXR file");
-  EXPECT_THAT(error({.version = 3}), HasSubstr("is OpenEXR of version 3"));
-  EXPECT_THAT(error({.version = 2 | 0x800}), HasSubstr("deep pixels"));
-  EXPECT_THAT(error({.channels = channel("Z", 3)}), HasSubstr("channel 'Z' has pixels of the unknown type 3"));
-  EXPECT_THAT(error({.channels = channel("Z", 2, 2)}), HasSubstr("has not every pixel"));
-  EXPECT_THAT(error({.channels = ""}), HasSubstr("its header has no channels"));
-  EXPECT_THAT(error({.data_window = window(0, 2), .display_window = window(0, 2)}), HasSubstr("has 0x2 pixels"));
+  EXPECT_THAT(error({.version = 3}), StartsWith("a.exr: is damaged or cut off: "));
+  EXPECT_THAT(error({.version = 2 | 0x800}), StartsWith("a.exr: is damaged or cut off: "));
+  EXPECT_THAT(error({.channels = channel("Z", 3)}), StartsWith("a.exr: is damaged or cut off: "));
+  EXPECT_THAT(error({.channels = channel("Z", 2, 2)}), HasSubstr("subsampling factor (2)"));
+  EXPECT_THAT(error({.channels = ""}), HasSubstr("At least one channel required"));
+  EXPECT_THAT(error({.data_window = window(0, 2), .display_window = window(0, 2)}),
+              HasSubstr("Invalid display window (0, 0 - -1, 1)"));
   EXPECT_THAT(error({.data_window = window(16000, 16000), .display_window = window(16000, 16000)}),
               HasSubstr("16000x16000 pixels are announced, which"));
   EXPECT_THAT(error({.compression = 3}), HasSubstr("damaged"));
-  EXPECT_THAT(error({.lines = {raw(0.5F), raw(1.5F)}}), HasSubstr("a scan line is cut off"));
+  EXPECT_THAT(error({.lines = {raw(0.5F), raw(1.5F)}}), HasSubstr("Unable to read pixel data block"));
   Image moved;
   std::string bytes = moved.bytes();
   bytes[bytes.find(raw(0) + raw(std::uint32_t{12}))] = 1;  // says that the first row is the second
-  EXPECT_THAT(input_error_of([&] { (void)decode_exr(bytes, "a.exr"); }),
-              HasSubstr("its table of scan lines is damaged"));
+  EXPECT_THAT(input_error_of([&] { (void)decode_exr(bytes, "a.exr"); }), HasSubstr("scanline says 1, expected 0"));
   const FuzzCount count =
       read_damaged(moved.bytes(), 2000, [](const std::string& damaged) { (void)decode_exr(damaged, "a.exr"); });
   EXPECT_EQ(count.accepted + count.refused, 2000);

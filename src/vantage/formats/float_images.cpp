@@ -7,12 +7,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/text.hpp"
 #include "vantage/files/text_reader.hpp"
+#include "vantage/formats/half.hpp"
 
 namespace vantage {
 namespace {
@@ -26,15 +26,6 @@ Value value_at(std::string_view bytes, std::size_t index, bool is_little) {
   std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(index * sizeof(Value)), sizeof(Value), raw.begin());
   if (is_little != (std::endian::native == std::endian::little)) std::reverse(raw.begin(), raw.end());
   return std::bit_cast<Value>(raw);
-}
-
-float half_as_float(std::uint16_t bits) {
-  const int exponent = bits >> 10U & 0x1f, fraction = bits & 0x3ff;
-  const float sign = (bits & 0x8000U) != 0 ? -1.0F : 1.0F;
-  if (exponent == 31)
-    return fraction != 0 ? std::numeric_limits<float>::quiet_NaN() : sign * std::numeric_limits<float>::infinity();
-  if (exponent == 0) return sign * std::ldexp(static_cast<float>(fraction), -24);
-  return sign * std::ldexp(static_cast<float>(1024 + fraction), exponent - 25);
 }
 
 /// The text after `'key':` in the header of an array, which is a Python dictionary.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 
@@ -22,7 +24,48 @@ Box3 box_around(const std::vector<PendingScan>& scans) {
   return {box.min() - grown, box.max() + grown};
 }
 
+std::size_t bytes_of(const Scan& scan) {
+  if (const auto* image = std::get_if<ImageScan>(&scan))
+    return image->image.depth.size() * sizeof(float) + image->normals.size() * sizeof(Vec3f);
+  const auto& points = std::get<PointScan>(scan);
+  return (points.points.size() + points.origins.size()) * sizeof(Vec3) + points.normals.size() * sizeof(Vec3f);
+}
+
+/// A scan between its first and its second reading.
+class KeptScan {
+ public:
+  KeptScan(std::function<Scan()> read, std::shared_ptr<std::size_t> bytes_left)
+      : read_(std::move(read)), bytes_left_(std::move(bytes_left)) {}
+
+  Scan read() {
+    if (std::optional<Scan> scan = std::exchange(kept_, std::nullopt)) {
+      *bytes_left_ += bytes_of(*scan);
+      return *std::move(scan);
+    }
+    Scan scan = read_();
+    if (const std::size_t bytes = bytes_of(scan); !was_read_ && bytes <= *bytes_left_) {
+      *bytes_left_ -= bytes;
+      kept_ = scan;
+    }
+    was_read_ = true;
+    return scan;
+  }
+
+ private:
+  std::function<Scan()> read_;
+  std::shared_ptr<std::size_t> bytes_left_;
+  std::optional<Scan> kept_;
+  bool was_read_ = false;
+};
+
 }  // namespace
+
+std::vector<PendingScan> kept_for_second_reading(std::vector<PendingScan> scans, std::size_t most_bytes) {
+  const auto bytes_left = std::make_shared<std::size_t>(most_bytes);
+  for (PendingScan& scan : scans)
+    scan.read = [kept = std::make_shared<KeptScan>(std::move(scan.read), bytes_left)] { return kept->read(); };
+  return scans;
+}
 
 void ScanPlanOptions::validate() const {
   SensorOptions::validate();
@@ -94,19 +137,14 @@ ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions
   require(!scans.empty(), "scans: there are none");
   const std::optional<Box3> given = given_box(options);
   const Box3 box = given ? *given : box_around(scans);
-  ScanScene fitted = scene_in(box, options);
-  std::vector<double> distances;
-  std::size_t hits = 0;
-  for (const PendingScan& pending : scans) {
-    const Scan scan = pending.read();
-    distances.push_back((sensor_position(scan, pending.believed) - box.center()).norm());
-    hits += points_in(box, scan, pending.believed);
-  }
-  require(hits > 0, "box: none of the ", scans.size(), " scans has a point in the box around (",
+  // A box around all points has some.
+  const bool has_points = !given || std::any_of(scans.begin(), scans.end(), [&](const PendingScan& pending) {
+    return points_in(box, pending.read(), pending.believed) > 0;
+  });
+  require(has_points, "box: none of the ", scans.size(), " scans has a point in the box around (",
           box.center().transpose(), ") of size (", box.sizes().transpose(),
           ") m; `vantage doctor` tells whether poses, units or the box are wrong");
-  if (!options.radius) fitted.radius = typical_distance(std::move(distances));
-  return fitted;
+  return scene_in(box, options);
 }
 
 }  // namespace vantage

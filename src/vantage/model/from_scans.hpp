@@ -45,11 +45,16 @@ struct PendingScan {
   std::function<Scan()> read;
 };
 
+/// The same scans, each kept in memory from its first reading to its second one while `most_bytes` are enough for all
+/// that are kept: a scene is fitted to scans before they are merged, and each is decoded once. Not for several threads.
+[[nodiscard]] std::vector<PendingScan> kept_for_second_reading(std::vector<PendingScan> scans,
+                                                               std::size_t most_bytes = std::size_t{128} << 20U);
+
 /// Box, voxels and view sphere that fit the scans.
 struct ScanScene {
   SceneOptions scene;
-  double radius = 1;
-  Box3 region;  // what registration uses: the box and its surroundings
+  double radius = 1;  // metres; where the options give none, the distance of the sensor at the scans once merged
+  Box3 region;        // what registration uses: the box and its surroundings
   SensorOptions sensor;
 
   [[nodiscard]] Candidates candidates(int views) const { return view_sphere(views, radius, scene.center); }
@@ -68,8 +73,8 @@ struct ScanScene {
 /// The median of distances between box and sensor, which a scan with a wrong pose hardly moves; 0 where there are none.
 [[nodiscard]] double typical_distance(std::vector<double> distances);
 
-/// Fits the scene to the options and, where they leave something open, to the scans. Throws InputError where no scan
-/// has a point in the box.
+/// Fits the scene to the options and, where they give no box, to the scans, which are then read once. Else scans are
+/// read until one has a point in the box; throws InputError where none has.
 [[nodiscard]] ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options);
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/text_reader.hpp"
+#include "vantage/recordings/read_ahead.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
 
 namespace vantage {
@@ -40,8 +41,7 @@ Scan scan_of_frame(const Frame& frame, const View& view, const ScanFolderOptions
     if (const auto* cloud = std::get_if<CloudFile>(&frame.measured))
       return cropped(scan_of_cloud(*cloud, view.world_from_sensor, used), view, used);
     require(frame.intrinsics.has_value(), "has no intrinsics; give --intrinsics");
-    return cropped(scan_of_depth(std::get<DepthPixels>(frame.measured), *frame.intrinsics, frame.mask, used), view,
-                   used);
+    return scan_of_depth(std::get<DepthPixels>(frame.measured), *frame.intrinsics, frame.mask, view, used);
   });
 }
 
@@ -60,10 +60,19 @@ ScanSet scans_of(const std::shared_ptr<FrameSource>& source, const ScanFolderOpt
       continue;
     }
     const View view{sensor_pose(*info.world_from_sensor, hand_eye, options)};
+    // The camera is known from the first frame, which is kept until it is asked for.
+    std::shared_ptr<ReadAhead<Frame>> first;
+    if (set.scans.empty()) {
+      Frame frame = naming(info.name, [&] { return source->read(i); });
+      set.camera = naming(info.name, [&] { return camera_of(frame, options); });
+      first = std::make_shared<ReadAhead<Frame>>(std::move(frame));
+    }
     set.scans.push_back({as_utf8(info.name), view,
-                         [source, i, view, options] { return scan_of_frame(source->read(i), view, options); },
+                         [source, i, view, options, first] {
+                           std::optional<Frame> frame = first ? first->take() : std::nullopt;
+                           return scan_of_frame(frame ? *frame : source->read(i), view, options);
+                         },
                          is_masked});
-    if (set.scans.size() == 1) set.camera = naming(info.name, [&] { return camera_of(source->read(i), options); });
   }
   require(!set.scans.empty(), set.description, ": no frame has a pose; give a trajectory with --poses");
   return set;

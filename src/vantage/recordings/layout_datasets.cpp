@@ -147,7 +147,7 @@ std::optional<fs::path> nerf_depth(const fs::path& folder, const json& frame) {
   const fs::path color = frame["file_path"].get<std::string>();
   const std::string stem = color.extension().empty() ? color.filename().string() : color.stem().string();
   for (const char* place : {"depth/", "depths/", "depth_images/"}) {
-    for (const char* ending : {".png", ".exr", ".npy", ".pfm"}) {
+    for (const char* ending : {".png", ".exr", ".tif", ".tiff", ".npy", ".pfm"}) {
       if (fs::is_regular_file(folder / (place + stem + ending))) return folder / (place + stem + ending);
     }
   }

@@ -70,7 +70,8 @@ std::optional<FolderLayout> numbered(const fs::path& folder, const ScanFolderOpt
     images = files_matching(folder, options.depth);
     require(!images.empty(), "depth = '", options.depth, "': no file in ", folder.string(), " fits it");
     for (const fs::path& image : images)
-      require(is_depth_image(image), image.string(), ": is no depth image; must be .png, .exr, .raw, .npy or .pfm");
+      require(is_depth_image(image), image.string(),
+              ": is no depth image; must be .png, .exr, .tif, .raw, .npy or .pfm");
   }
   for (const char* name : {"depth", "depths", "depth_images", "Depth"}) {
     if (images.empty()) images = depth_images_in(folder / name);

@@ -16,7 +16,7 @@
 namespace vantage::layout_parts {
 namespace {
 
-constexpr std::array depth_endings{".png", ".exr", ".raw", ".npy", ".pfm"};
+constexpr std::array depth_endings{".png", ".exr", ".tif", ".tiff", ".raw", ".npy", ".pfm"};
 constexpr std::size_t most_files = 1'000'000;
 
 std::string lower(std::string text) {

@@ -75,22 +75,34 @@ std::optional<Ros1Bag::Record> Ros1Bag::record_at(std::uint64_t place) const {
   try {
     Record record{read_fields(std::string_view(header).substr(0, header_size), file_.name()), place,
                   place + 4 + header_size + 4, little_endian<4>(header.data() + header_size)};
-    if (record.op() == 0) return std::nullopt;
+    if (record.op() < op::message_data || record.op() > op::connection) return std::nullopt;
     return record;
   } catch (const InputError&) {
     return std::nullopt;
   }
 }
 
+Ros1Bag::Record Ros1Bag::up_to_damage(Record record) const {
+  const auto end = damaged_ends_.find(record.place);
+  if (end != damaged_ends_.end()) record.size = std::min(record.size, end->second - record.begin);
+  return record;
+}
+
 void Ros1Bag::walk(const Visit& visit) {
+  read_index();
   std::uint64_t place = ros1_magic.size();
   bool has_end = false;  // connections and chunk infos behind the last chunk
   while (place < file_.size()) {
     const auto record = record_at(place);
-    const bool is_whole = record && record->end() <= file_.size();
-    std::optional<std::uint64_t> next = is_whole ? record->end() : next_chunk(place + 1);
-    if (!is_whole && next) note_damage(fmt::format("{}: bytes {} to {} are damaged", file_.name(), place, *next));
-    if (record && (is_whole || !next)) visit_record(*record, visit);
+    // A size that is wrong leads into the middle of another record.
+    const bool is_whole = record && record->end() <= file_.size() &&
+                          (record->end() == file_.size() || record_at(record->end()).has_value());
+    std::optional<std::uint64_t> next = is_whole ? record->end() : next_chunk(record ? record->begin : place + 1);
+    if (!is_whole && next)
+      note_damage(
+          fmt::format("{}: bytes {} to {} are damaged; what can be read of them is", file_.name(), place, *next));
+    if (record && !is_whole && next) damaged_ends_[record->place] = *next;
+    if (record) visit_record(up_to_damage(*record), visit);
     has_end = record && record->op() == op::chunk_info;
     place = next.value_or(file_.size());
     if (!next) note_damage(fmt::format("{}: is cut off at byte {}", file_.name(), file_.size()));
@@ -138,22 +150,68 @@ void Ros1Bag::visit_chunk(const Record& record, const Visit& visit) {
     if (compression != "none" && !compression.empty()) compressions_.insert(compression);
     if (!chunk.trouble.empty())
       note_damage(fmt::format("{}, byte {}: a chunk {}", file_.name(), record.begin, chunk.trouble));
-    visit_chunk_records(chunk.records, record.place, visit);
+    const std::string_view records = chunk.records;
+    std::size_t at = 0;
+    while (at < records.size()) {
+      try {
+        at = visit_chunk_record(records, at, record.place, visit);
+      } catch (const InputError& error) {
+        const std::size_t next = next_in_chunk(records, at + 1);
+        note_damage(fmt::format("{}; {} bytes of the chunk are passed over", error.what(), next - at));
+        at = next;
+      }
+    }
   } catch (const InputError& error) {
     note_damage(error.what());
   }
 }
 
-void Ros1Bag::visit_chunk_records(std::string_view records, std::uint64_t place, const Visit& visit) {
-  ByteReader reader(records, fmt::format("{}, chunk at byte {}", file_.name(), place));
-  while (reader.left() > 0) {
-    const Fields fields = read_fields(reader.counted("a record"), reader.name());
-    const std::uint64_t size = reader.u32("a record");
-    const std::uint64_t offset = reader.position();
-    const std::string_view data = reader.bytes(size, "a record");
-    const int kind = Record{fields}.op();
-    if (kind == op::connection) read_connection(fields, data);
-    if (kind == op::message_data) visit_message(fields, {0, place, offset, size}, data, visit);
+std::size_t Ros1Bag::visit_chunk_record(std::string_view records, std::size_t at, std::uint64_t place,
+                                        const Visit& visit) {
+  ByteReader reader(records.substr(at), fmt::format("{}, chunk at byte {}", file_.name(), place));
+  const Fields fields = read_fields(reader.counted("a record"), reader.name());
+  const std::uint64_t size = reader.u32("a record");
+  const std::uint64_t offset = at + reader.position();
+  const std::string_view data = reader.bytes(size, "a record");
+  const int kind = Record{fields}.op();
+  require(kind == op::connection || kind == op::message_data, reader.name(), ": byte ", at, " is no message");
+  if (kind == op::connection) read_connection(fields, data);
+  if (kind == op::message_data) visit_message(fields, {0, place, offset, size}, data, visit);
+  return offset + size;
+}
+
+/// Where the next message or connection of a chunk begins, or its end.
+std::size_t Ros1Bag::next_in_chunk(std::string_view records, std::size_t from) {
+  constexpr std::string_view field("\x04\0\0\0op=", 7);  // some bytes behind the record's begin
+  constexpr std::size_t furthest = 64;
+  for (std::size_t found = records.find(field, from); found != std::string_view::npos;
+       found = records.find(field, found + 1)) {
+    for (std::size_t back = 4; back <= furthest && from + back <= found; ++back) {
+      try {
+        ByteReader reader(records.substr(found - back), "");
+        const Fields fields = read_fields(reader.counted("a record"), "");
+        const int kind = Record{fields}.op();
+        if (kind == op::connection || kind == op::message_data) return found - back;
+      } catch (const InputError&) {
+        continue;
+      }
+    }
+  }
+  return records.size();
+}
+
+void Ros1Bag::read_index() {
+  // Connections are described where they begin, which may be damaged, and once more behind the last chunk.
+  const auto header = record_at(ros1_magic.size());
+  if (!header || header->op() != op::bag_header) return;
+  const std::uint64_t place = field_number<8>(header->fields, "index_pos").value_or(0);
+  if (place == 0 || place >= file_.size()) return;
+  for (auto record = record_at(place); record && record->op() == op::connection; record = record_at(record->end())) {
+    try {
+      read_connection(record->fields, file_.read(record->begin, std::min(record->size, largest_header)));
+    } catch (const InputError&) {
+      return;  // the chunks repeat it
+    }
   }
 }
 
@@ -200,7 +258,7 @@ std::string Ros1Bag::read(const MessagePlace& place) {
   const std::string& records = cache_.chunk(place.container, [&] {
     const auto record = record_at(place.container);
     require(record.has_value(), file_.name(), ": changed while it was read");
-    return unpack(*record).records;
+    return unpack(up_to_damage(*record)).records;
   });
   require(place.offset + place.size <= records.size(), file_.name(), ": changed while it was read");
   return records.substr(place.offset, place.size);

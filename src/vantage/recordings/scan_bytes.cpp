@@ -46,6 +46,18 @@ PointScan without_outside(const PointScan& scan, const Box3& box, const Pose& wo
   return inside;
 }
 
+RangeImage depths_of(const DepthPixels& pixels, const Intrinsics& intrinsics, const std::optional<Mask>& mask,
+                     const ScanFolderOptions& options) {
+  const auto depths = [&](const auto& image) {
+    RangeCamera camera = pinhole_camera(intrinsics, image.resolution);
+    camera.min_depth = options.depth_range[0];
+    camera.max_depth = options.depth_range[1];
+    auto counted = mask ? masked(image, *mask) : image;
+    return range_image(undistorted(std::move(counted), intrinsics), camera, depth_encoding(options));
+  };
+  return std::visit(depths, pixels);
+}
+
 }  // namespace
 
 DepthEncoding depth_encoding(const ScanFolderOptions& options) {
@@ -77,14 +89,14 @@ Pose sensor_pose(const Pose& read, const Pose& hand_eye, const ScanFolderOptions
 
 Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics, const std::optional<Mask>& mask,
                    const ScanFolderOptions& options) {
-  const auto scan = [&](const auto& image) {
-    RangeCamera camera = pinhole_camera(intrinsics, image.resolution);
-    camera.min_depth = options.depth_range[0];
-    camera.max_depth = options.depth_range[1];
-    auto counted = mask ? masked(image, *mask) : image;
-    return scan_of(range_image(undistorted(std::move(counted), intrinsics), camera, depth_encoding(options)));
-  };
-  return std::visit(scan, pixels);
+  return scan_of(depths_of(pixels, intrinsics, mask, options));
+}
+
+Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics, const std::optional<Mask>& mask,
+                   const View& believed, const ScanFolderOptions& options) {
+  RangeImage depths = depths_of(pixels, intrinsics, mask, options);
+  if (const auto box = crop_box(options)) depths = without_outside(std::move(depths), *box, believed.world_from_sensor);
+  return scan_of(std::move(depths));  // normals last, and once
 }
 
 Scan scan_of_cloud(const CloudFile& file, const Pose& world_from_sensor, const ScanFolderOptions& options) {

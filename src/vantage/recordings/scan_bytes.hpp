@@ -24,6 +24,11 @@ namespace vantage {
 [[nodiscard]] Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics,
                                  const std::optional<Mask>& mask, const ScanFolderOptions& options);
 
+/// The same, and what lies outside of the crop box of the options by the believed pose is unknown.
+[[nodiscard]] Scan scan_of_depth(const DepthPixels& pixels, const Intrinsics& intrinsics,
+                                 const std::optional<Mask>& mask, const View& believed,
+                                 const ScanFolderOptions& options);
+
 /// A cloud as points in the sensor's frame, metres, with sight lines from its origin. `world_from_sensor` is the
 /// sensor's pose, for clouds whose points are in the world's frame.
 [[nodiscard]] Scan scan_of_cloud(const CloudFile& file, const Pose& world_from_sensor,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <span>
 
 #include "vantage/core/error.hpp"
@@ -20,6 +21,7 @@
 #include "vantage/recordings/frame_scans.hpp"
 #include "vantage/recordings/pixel_choice.hpp"
 #include "vantage/recordings/pose_source.hpp"
+#include "vantage/recordings/read_ahead.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
 #include "vantage/sensor/organised_normals.hpp"
 
@@ -28,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array frame_endings{".depth.png", ".depth.exr", ".depth.npy", ".depth.pfm", ".depth.raw"};
+constexpr std::array frame_endings{".depth.png", ".depth.exr", ".depth.tif", ".depth.tiff",
+                                   ".depth.npy", ".depth.pfm", ".depth.raw"};
 constexpr std::array cloud_endings{".ply", ".pcd", ".xyz", ".xyzn"};
 constexpr std::array conf_endings{".conf"};
 
@@ -57,13 +60,6 @@ std::vector<Found> files_ending_with(const fs::path& folder, std::span<const cha
             found[i - 1].path.filename().string(), "; a scan must be one file");
   }
   return found;
-}
-
-Resolution image_resolution(const Found& frame, const Intrinsics& intrinsics) {
-  if (frame.path.extension() != ".raw") return read_depth_resolution(frame.path);
-  require(intrinsics.resolution.has_value(), frame.path.string(),
-          ": the size of a raw image is not known; the intrinsics must have it (a .yaml or .json file)");
-  return *intrinsics.resolution;
 }
 
 /// A scan that has a pose.
@@ -96,11 +92,15 @@ ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& fram
   const fs::path file = intrinsics_file(folder, options.intrinsics);
   const Intrinsics intrinsics = read_intrinsics(file);
   RangeCamera camera;
+  std::shared_ptr<ReadAhead<DepthPixels>> first;  // says how large the images are
   const auto place = [&](const InputError& error) {
     return fmt::format("{} with {}: {}", file.string(), frames.front().path.filename().string(), error.what());
   };
   try {
-    camera = pinhole_camera(intrinsics, image_resolution(frames.front(), intrinsics));
+    const fs::path& path = frames.front().path;
+    DepthPixels pixels = decode_depth(read_file(path), intrinsics.resolution, path.string());
+    camera = pinhole_camera(intrinsics, std::visit([](const auto& image) { return image.resolution; }, pixels));
+    first = std::make_shared<ReadAhead<DepthPixels>>(std::move(pixels));
   } catch (const ResolutionError& error) {
     throw ResolutionError(place(error));
   } catch (const InputError& error) {
@@ -115,11 +115,13 @@ ScanSet open_depth_frames(const fs::path& folder, const std::vector<Found>& fram
     require_pixel_choices(folder, {frame.name}, options);
     const bool is_masked = !options.masks.empty() || !options.confidence.empty() || has_mask(folder, frame.name);
     set.scans.push_back({as_utf8(frame.name), view,
-                         [folder, name = frame.name, path, camera, intrinsics, view, options] {
-                           const DepthPixels pixels = decode_depth(read_file(path), camera.resolution, path.string());
-                           require_resolution(pixels, camera.resolution, path.string());
+                         [folder, name = frame.name, path, camera, intrinsics, view, options,
+                          ahead = path == frames.front().path ? first : nullptr] {
+                           std::optional<DepthPixels> pixels = ahead ? ahead->take() : std::nullopt;
+                           if (!pixels) pixels = decode_depth(read_file(path), camera.resolution, path.string());
+                           require_resolution(*pixels, camera.resolution, path.string());
                            const auto counts = counted_pixels(folder, {name}, options, camera.resolution);
-                           return cropped(scan_of_depth(pixels, intrinsics, counts, options), view, options);
+                           return scan_of_depth(*pixels, intrinsics, counts, view, options);
                          },
                          is_masked});
   }
@@ -204,7 +206,8 @@ ScanSet open_folder(const fs::path& folder, const ScanFolderOptions& options) {
   if (!confs.empty()) return open_conf(confs.front().path, options);
   std::vector<Found> clouds = files_ending_with(folder, cloud_endings);
   require(!clouds.empty(), folder.string(),
-          ": has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, a .conf file, or the layout "
+          ": has no scans; must have NAME.depth.png, .exr, .tif, .npy, .pfm or .raw, NAME.ply, .pcd or .xyz, a .conf "
+          "file, or the layout "
           "of a "
           "data set (docs/input.md); depth images of other names are given with --depth 'PATTERN'");
   return open_clouds(folder, clouds, options);

@@ -109,7 +109,7 @@ struct ScanSet {
 };
 
 /// The scans of
-/// - a folder with `NAME.depth.png` (16 bit), `NAME.depth.exr` or `NAME.depth.raw` (floats), intrinsics
+/// - a folder with depth images `NAME.depth.png` (also .exr, .tif, .npy, .pfm, .raw), intrinsics
 /// (`camera-intrinsics.txt`,
 ///   `camera_info.yaml`, `intrinsics.json` ...) and `NAME.pose.txt` or `NAME.pose.json` each, or a trajectory whose
 ///   times are the names, or as long as there are frames;

@@ -53,6 +53,18 @@ TEST(ScanFolder, DepthFramesComeInTheOrderOfTheirNumbersWithTheirPoses) {
   EXPECT_TRUE(scan.normals[15 * 40 + 20].isApprox(Vec3f(0, 0, -1), 1e-5F));
 }
 
+TEST(ScanFolder, TheFirstFrameIsDecodedOnceAlthoughItSaysHowLargeAllAre) {
+  const TestFolder folder;
+  write_frames(folder, {"a", "b"});
+  for (const char* name : {"a.pose.txt", "b.pose.txt"}) write_pose(folder / name, pose_number(1));
+  const ScanSet set = open_scans(folder.path());
+  std::filesystem::remove(folder / "a.depth.png");
+  EXPECT_EQ(std::get<ImageScan>(set.scans[0].read()).image.at(20, 15), 1.0F);
+  EXPECT_THAT(input_error_of([&] { (void)set.scans[0].read(); }), HasSubstr("a.depth.png"))
+      << "it is not kept any longer";
+  EXPECT_EQ(std::get<ImageScan>(set.scans[1].read()).image.at(20, 15), 1.0F);
+}
+
 TEST(ScanFolder, PosesMayLieInAFolderOrATrajectory) {
   const TestFolder folder;
   write_frames(folder, {"a", "b"});
@@ -171,8 +183,8 @@ TEST(ScanFolder, WhatIsMissingIsNamed) {
   const auto error = [&](const ScanFolderOptions& options = {}) {
     return input_error_of([&] { (void)open_scans(folder.path(), options); });
   };
-  EXPECT_THAT(error(),
-              HasSubstr("has no scans; must have NAME.depth.png, .exr or .raw, NAME.ply, .pcd or .xyz, a .conf file"));
+  EXPECT_THAT(error(), HasSubstr("has no scans; must have NAME.depth.png, .exr, .tif, .npy, .pfm or .raw, NAME.ply, "
+                                 ".pcd or .xyz, a .conf file"));
   EXPECT_THAT(input_error_of([&] { (void)open_scans(folder / "none"); }),
               HasSubstr("none: there is no such file or folder"));
   write_frames(folder, {"a"});

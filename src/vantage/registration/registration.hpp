@@ -91,15 +91,23 @@ class ModelSurface {
   /// The same with the range image of which `scan_in_sensor` are the points: it also tells where nothing is.
   void merge(const PointCloud& scan_in_sensor, RangeImage image, const Pose& world_from_sensor) {
     fused_.merge(scan_in_sensor, world_from_sensor);
+    if (merged_images_++ % every_ != 0) return;
     images_.push_back({std::move(image), world_from_sensor});
+    if (images_.size() <= most_images) return;
+    every_ *= 2;
+    for (std::size_t i = 1; 2 * i < images_.size(); ++i) images_[i] = std::move(images_[2 * i]);
+    images_.resize((images_.size() + 1) / 2);
   }
   [[nodiscard]] const PointCloud& cloud() const { return fused_.cloud(); }
   [[nodiscard]] const FusedCloud& fused() const { return fused_; }
+  /// All range images; of more than `most_images` every second, fourth ... one, so that memory does not grow for ever.
   [[nodiscard]] std::span<const PosedImage> images() const { return images_; }
+  static constexpr std::size_t most_images = 64;
 
  private:
   FusedCloud fused_;
   std::vector<PosedImage> images_;
+  std::size_t merged_images_ = 0, every_ = 1;
 };
 
 /// Registers a scan (points and normals in the sensor frame) against the model so far: point-to-plane ICP from the

@@ -99,6 +99,21 @@ TEST(Registration, RefusesWhatFewFacesLeaveOpen) {
   }
 }
 
+TEST(ModelSurface, KeepsEverySecondImageOnceThereAreMany) {
+  ModelSurface model(0.1);
+  const RangeImage image{camera_from_apertures(radians(45), radians(45), {2, 2}), std::vector<float>(4)};
+  const auto firsts = [&] {
+    std::vector<double> all;
+    for (const PosedImage& each : model.images()) all.push_back(each.world_from_sensor.translation().x());
+    return all;
+  };
+  for (int i = 0; i < 64; ++i) model.merge({}, image, Pose(Eigen::Translation3d(i, 0, 0)));
+  EXPECT_EQ(firsts().size(), 64U);
+  for (int i = 64; i < 1000; ++i) model.merge({}, image, Pose(Eigen::Translation3d(i, 0, 0)));
+  ASSERT_EQ(firsts().size(), 63U) << "of 0 to 999 every 16th";
+  for (std::size_t i = 0; i < 63; ++i) EXPECT_EQ(firsts()[i], static_cast<double>(16 * i));
+}
+
 TEST(Registration, RefusesAPoseThatFitsButStandsInFreeSpace) {
   // A long bar slid along itself fits; only the empty space beyond its end speaks against it.
   const Solid bar = test::box(Vec3::Zero(), Vec3(0.9, 0.15, 0.15));
