@@ -18,14 +18,6 @@ LabelCounts label_counts(const VoxelMap& map) {
           map.count(Label::occluded), map.count(Label::occplane)};
 }
 
-void merge(ModelSurface& surface, const Scan& scan, const PointCloud& points, const View& view) {
-  if (const auto* image = std::get_if<ImageScan>(&scan)) {
-    surface.merge(points, image->image, view.world_from_sensor);
-  } else {
-    surface.merge(points, view.world_from_sensor);
-  }
-}
-
 }  // namespace
 
 void Budget::validate() const {
@@ -49,6 +41,9 @@ ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Re
   record.overlap = located.overlap;
   record.residual = located.residual;
   record.verdict = located.verdict;
+  record.detail = located.detail;
+  record.pose_covariance = located.covariance;
+  record.undetermined_directions = located.undetermined_directions;
   record.timings.registration = seconds_since(start);
 
   start = Clock::now();
@@ -56,7 +51,8 @@ ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Re
     const IntegrationReport report = integrate(model.map, scan, located.view, quality);
     record.new_occupied = report.new_occupied;
     record.taken_back = report.taken_back;
-    merge(model.surface, scan, points, located.view);
+    model.surface.merge(points, located.view.world_from_sensor);
+    if (located.surface) model.surface.merge(*located.surface, located.view.world_from_sensor);
   }
   record.labels = label_counts(model.map);
   record.mean_quality = model.map.mean_quality();
@@ -86,7 +82,10 @@ void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, 
   } else {
     planner_.set_aside(candidate, concat("its scan could not be registered: ", record.verdict));
   }
-  if (learner && teach(*learner, record)) planner_.believe(learner->prediction());
+  if (learner && teach(*learner, record)) {
+    planner_.believe(learner->prediction());
+    registrar_.believe(learner->prediction());
+  }
   on_scan(record, scan, model, plan);
   model.scans.push_back(std::move(record));
 }

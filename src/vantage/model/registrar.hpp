@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "vantage/core/point_cloud.hpp"
 #include "vantage/map/scan.hpp"
 #include "vantage/registration/registration.hpp"
+#include "vantage/robot/error_model.hpp"
 #include "vantage/sensor/view.hpp"
 
 namespace vantage {
@@ -15,10 +17,16 @@ namespace vantage {
 struct Located {
   View view;
   bool accepted = true;
-  double overlap = 1;   // share of the scan's points that lie on the model
-  double residual = 0;  // metres
-  std::string verdict;  // one word
-  std::string detail;   // a sentence for people
+  double overlap = 1;        // share of the scan's surface that lies on the model
+  double residual = 0;       // metres
+  std::string verdict = {};  // one word
+  std::string detail = {};   // a sentence for people
+  /// Of pose_step(view, the true one); 0 where the pose is taken as it is.
+  Mat6 covariance = Mat6::Zero();
+  int undetermined_directions = 0;  // in which the pose stays as believed, mean and covariance
+  double value = 0, limit = 0;      // what the verdict rests on
+  /// What later scans are registered against; nothing where nobody registers.
+  std::shared_ptr<const ScanSurface> surface = {};
 };
 
 /// Finds the pose of each scan against the model so far.
@@ -32,6 +40,14 @@ class Registrar {
   /// `model` holds all scans merged so far; the first scan meets an empty one. `points` are those of the scan.
   [[nodiscard]] virtual Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                        const View& believed) = 0;
+  /// The scan as registration sees it, for one whose pose has been found before; nothing where it does not look.
+  [[nodiscard]] virtual std::shared_ptr<const ScanSurface> surface_of(const Scan& /*scan*/,
+                                                                      const PointCloud& /*points*/,
+                                                                      const View& /*believed*/) const {
+    return nullptr;
+  }
+  /// From now on the robot is believed to err like this.
+  virtual void believe(const PoseError& /*error*/) {}
 };
 
 /// Takes the robot's word for its pose.
@@ -54,21 +70,37 @@ class TruthRegistrar : public Registrar {
   std::function<View()> true_view_;
 };
 
-/// Moves the believed pose to where the scan fits the model best; the first scan stays where it is believed to be.
+/// Errors of which a robot of unknown kind stays within 5 cm and 5 degrees (three standard deviations).
+[[nodiscard]] PoseError usual_pose_error();
+
+/// What is known about scans before they are registered.
+struct RegistrarOptions {
+  /// How the robot errs from move to move.
+  std::shared_ptr<const PoseErrorModel> error = std::make_shared<ConstantError>(usual_pose_error());
+  std::optional<SensorModel> sensor;  // as is usual, or as the scan shows, where it is not told
+  /// Only points in this box (world frame, by the believed pose) take part where it is given: what is known to stand
+  /// still.
+  std::optional<Box3> region;
+  RegistrationOptions registration;
+};
+
+/// Moves the believed pose to where it is most probable, by how the robot errs and how the scan fits the model; the
+/// first scan stays where it is believed to be.
 class IcpRegistrar : public Registrar {
  public:
-  /// Only points in `region` (world frame, by the believed pose) take part where it is given: what is known to stand
-  /// still.
-  explicit IcpRegistrar(const RegistrationOptions& options = {}, const std::optional<Box3>& region = {})
-      : options_(options), region_(region) {
-    options_.validate();
-  }
+  explicit IcpRegistrar(RegistrarOptions options = {});
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override;
+  [[nodiscard]] std::shared_ptr<const ScanSurface> surface_of(const Scan& scan, const PointCloud& points,
+                                                              const View& believed) const override;
+  void believe(const PoseError& error) override;
 
  private:
-  RegistrationOptions options_;
-  std::optional<Box3> region_;
+  RegistrarOptions options_;
+  std::optional<View> last_;  // where the sensor was before
 };
+
+/// Where the sensor is after a move to `commanded` that errs like this.
+[[nodiscard]] PoseEstimate pose_estimate(const View& commanded, const PoseError& error);
 
 }  // namespace vantage

@@ -26,17 +26,12 @@ int candidate_at(const Candidates& candidates, const View& view) {
 
 std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& scene) {
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
-  RegistrationOptions registration;
-  // Real frames are noisy: surfels of two voxels average that out. And a robot's poses are good: what the surfaces
-  // leave open stays as the robot says.
-  registration.search_radius = options.pose_error;
-  registration.orientation_error = radians(options.pose_angle_error) / 3;
-  registration.spacing = scene.scene.voxel_length;
-  registration.finest_cell_in_spacings = 2;
-  registration.trust = 0.01;
-  registration.largest_open_misfit = options.pose_error;
-  registration.largest_share_in_free_space = 0.2;
-  return std::make_unique<IcpRegistrar>(registration, scene.region);
+  // The largest errors that the user knows of are three standard deviations.
+  RegistrarOptions registrar;
+  registrar.error = std::make_shared<ConstantError>(PoseError::from_deviations(
+      Vec3::Constant(options.pose_error / 3), Vec3::Constant(radians(options.pose_angle_error) / 3)));
+  registrar.region = scene.region;
+  return std::make_unique<IcpRegistrar>(registrar);
 }
 
 ScanModel::ScanModel(const ScanScene& scene)

@@ -44,6 +44,10 @@ struct ScanRecord {
   double overlap = 1;   // share of the scan that lies on the model, as registration saw it
   double residual = 0;  // metres
   std::string verdict;
+  std::string detail;  // a sentence about the verdict
+  /// Of the registered pose, as PoseEstimate has it; 0 where the pose was taken as it was.
+  PoseError::Matrix pose_covariance = PoseError::Matrix::Zero();
+  int undetermined_directions = 0;  // of the registered pose: there it stays as believed
   /// How the robot errs as far as it has been learned up to this scan; nothing where it is not learned.
   std::optional<PoseError> learned_error;
   ScanTimings timings;

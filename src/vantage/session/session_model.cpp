@@ -12,7 +12,12 @@ class KeepingRegistrar : public Registrar {
       : registrar_(registrar), known_(std::move(known)) {}
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override {
-    found_ = known_ ? *known_ : registrar_.locate(model, scan, points, believed);
+    if (known_) {
+      found_ = *known_;
+      found_.surface = registrar_.surface_of(scan, points, believed);
+    } else {
+      found_ = registrar_.locate(model, scan, points, believed);
+    }
     return found_;
   }
   [[nodiscard]] const Located& found() const { return found_; }

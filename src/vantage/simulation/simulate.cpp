@@ -14,37 +14,19 @@ TriangleMesh placed(const TriangleMesh& mesh, double size, const Vec3& center) {
   return object;
 }
 
-constexpr double trust_in_robots = 0.01;
-constexpr double certain_orientation = radians(0.1);
-
-/// What registration has to search through where the sensor may be turned too: the surface then lies off by the angle
-/// times its distance.
-RegistrationOptions registration_options(const ReconstructOptions& options, const View& typical) {
-  RegistrationOptions result;
-  const PoseError error = options.robot_error(options.center)->of_move(typical, typical);
-  const PoseError::Vector deviations = error.covariance.diagonal().cwiseSqrt() + error.mean.cwiseAbs();
-  if (!error.keeps_orientation()) {
-    const double angle = deviations.tail<3>().maxCoeff();
-    const double distance = (typical.position() - options.center).norm();
-    result.orientation_error = std::max(result.orientation_error, angle);
-    result.search_radius = 3 * std::hypot(deviations.head<3>().maxCoeff(), angle * distance);
-  }
-  if (!options.sensor_model().is_ideal()) {
-    // As for real frames, which are noisy too: the robot's word decides where noise leaves a direction weakly held.
-    result.trust = trust_in_robots;
-    result.trust_at_last = 0;
-    if (error.keeps_orientation()) result.orientation_error = certain_orientation;
-    if (!result.search_radius) result.search_radius = 3 * deviations.head<3>().maxCoeff();
-  }
-  return result;
-}
-
 std::unique_ptr<Registrar> make_registrar(const ReconstructOptions& options, const SimulatedRobot& robot) {
   if (options.registration == "truth") {
     return std::make_unique<TruthRegistrar>([&robot] { return robot.true_view(); });
   }
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
-  return std::make_unique<IcpRegistrar>(registration_options(options, options.candidate_views().views.front()));
+  RegistrarOptions registrar;
+  if (auto error = options.believed_error_model(options.center)) {
+    registrar.error = std::move(error);
+  } else {
+    registrar.error = std::make_shared<ConstantError>(PoseError());
+  }
+  registrar.sensor = options.sensor_model();
+  return std::make_unique<IcpRegistrar>(registrar);
 }
 
 }  // namespace
