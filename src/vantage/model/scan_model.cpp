@@ -31,6 +31,10 @@ std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const 
   registrar.error = std::make_shared<ConstantError>(PoseError::from_deviations(
       Vec3::Constant(options.pose_error / 3), Vec3::Constant(radians(options.pose_angle_error) / 3)));
   registrar.region = scene.region;
+  // The box itself: the region less its surroundings, in which the robot may be seen to move.
+  const double longest = scene.region.sizes().maxCoeff() / (1 + 2 * options.surroundings);
+  const Vec3 around = Vec3::Constant(options.surroundings * longest);
+  registrar.registration.still = Box3(scene.region.min() + around, scene.region.max() - around);
   return std::make_unique<IcpRegistrar>(registrar);
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double worth = 4.5;
 
 /// A sample of the scan, at its place in the world, in the free space of earlier scans.
-void look_from_earlier_scans(const Vec3& point, std::span<const PosedFreeSpace> spaces, Evidence& evidence) {
+void look_from_earlier_scans(const Vec3& point, std::span<const PosedFreeSpace> spaces, PoseEvidence& evidence) {
   bool is_seen = false;
   for (const PosedFreeSpace& space : spaces) {
     const FreeSpace::Answer answer = space.space.at(space.sensor_from_world * point);
@@ -28,9 +28,9 @@ void look_from_earlier_scans(const Vec3& point, std::span<const PosedFreeSpace> 
 
 }  // namespace
 
-Evidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSample> samples, const FreeSpace* own,
+PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSample> samples, const FreeSpace* own,
                      const RegisteredSurface& model, const PartnerLimits& limits) {
-  Evidence evidence;
+  PoseEvidence evidence;
   evidence.asked = static_cast<double>(samples.size());
   for (const auto& [sample, partner] : samples) {
     if (partner != nullptr) {

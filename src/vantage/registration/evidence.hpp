@@ -9,7 +9,7 @@
 namespace vantage {
 
 /// What speaks for and against a pose, counted in samples of the scan and of the model.
-struct Evidence {
+struct PoseEvidence {
   double asked = 0;              // samples of the scan
   double near = 0;               // of them, those with a surfel of the model beside them
   double on_surface = 0;         // of those, the ones that lie on it, within three standard deviations
@@ -37,7 +37,7 @@ struct PartnerLimits {
 };
 
 /// Weighs a pose against the model. `own`: what the scan itself shows to be empty, if that is known.
-[[nodiscard]] Evidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSample> samples,
+[[nodiscard]] PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSample> samples,
                                    const FreeSpace* own, const RegisteredSurface& model, const PartnerLimits& limits);
 
 }  // namespace vantage

@@ -35,6 +35,29 @@ double worth_of_pair(int pairs) {
   return 1 / (1 + shared_variance * pairs);
 }
 
+struct SampleWeights {
+  std::vector<double> values;  // their sum is 1
+  double power = 1;            // of the probabilities: below 1 where they had to be flattened
+};
+
+/// Weights of samples whose probabilities have these logarithms, flattened until as many as `least` count.
+SampleWeights sample_weights(const std::vector<double>& logs, double least) {
+  const double highest = *std::max_element(logs.begin(), logs.end());
+  SampleWeights weights{std::vector<double>(logs.size()), 1};
+  constexpr double flattest = 1e-6;
+  for (; weights.power > flattest; weights.power /= 2) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+      weights.values[i] = std::exp(weights.power * (logs[i] - highest));
+      sum += weights.values[i];
+      squares += weights.values[i] * weights.values[i];
+    }
+    for (double& value : weights.values) value /= sum;
+    if (sum * sum / squares >= least) break;
+  }
+  return weights;
+}
+
 }  // namespace
 
 int PoseMode::still_open() const {
@@ -233,14 +256,14 @@ void PoseSearch::follow_pairs(PoseMode& mode, double spread, int settling) const
   mode.pose = prior_.pose(mode.u);
 }
 
-/// Where planes leave directions open, the ends of surfaces and free space may still tell of them: how probable the
-/// poses are is asked at deterministic samples of what is known of these directions, again and again, until the samples
-/// spread as their weights do (importance sampling). What nothing tells of stays with the prior.
+/// Where planes leave directions open, the ends of surfaces and free space may still say something of them: how probable
+/// the poses are is asked at deterministic samples of what is known of these directions, again and again, until the
+/// samples spread as their weights do (importance sampling). What nothing says anything of stays with the prior.
 void PoseSearch::settle_open(PoseMode& mode) const {
-  const Eigen::Index count = mode.axes.open.cols();
-  const Eigen::MatrixXd points = normal_points(static_cast<int>(count), 24);
+  const Eigen::Index dimensions = mode.axes.open.cols();
+  const Eigen::MatrixXd points = normal_points(static_cast<int>(dimensions), 24);
   const Eigen::VectorXd rest = mode.u - mode.axes.open * (mode.axes.open.transpose() * mode.u);
-  OpenDirections known = OpenDirections::of_prior(count);
+  OpenDirections known = OpenDirections::of_prior(dimensions);
   constexpr int rounds = 6;
   for (int round = 0; round < rounds; ++round) {
     const Eigen::MatrixXd root = known.covariance.llt().matrixL();
@@ -249,34 +272,21 @@ void PoseSearch::settle_open(PoseMode& mode) const {
     parallel_for(places.size(), [&](std::size_t i) {
       const Eigen::VectorXd point = points.col(static_cast<Eigen::Index>(i));
       places[i] = known.mean + root * point;
-      const Evidence evidence = this->evidence(few_, prior_.pose(rest + mode.axes.open * places[i]));
-      logs[i] = worth_of_pair(static_cast<int>(evidence.near)) * evidence.log_likelihood -
+      const PoseEvidence found = evidence(few_, prior_.pose(rest + mode.axes.open * places[i]));
+      logs[i] = worth_of_pair(static_cast<int>(found.near)) * found.log_likelihood -
                 0.5 * places[i].squaredNorm() + 0.5 * point.squaredNorm();
     });
-    const double highest = *std::max_element(logs.begin(), logs.end());
-    // Flattened until as many samples count as are needed for a covariance.
-    double power = 1;
-    std::vector<double> weights(logs.size());
-    for (; power > 1e-6; power /= 2) {
-      double sum = 0, squares = 0;
-      for (std::size_t i = 0; i < logs.size(); ++i) {
-        weights[i] = std::exp(power * (logs[i] - highest));
-        sum += weights[i];
-        squares += weights[i] * weights[i];
-      }
-      for (double& weight : weights) weight /= sum;
-      if (sum * sum / squares >= static_cast<double>(2 * count + 2)) break;
-    }
-    OpenDirections next{Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count)};
-    for (std::size_t i = 0; i < places.size(); ++i) next.mean += weights[i] * places[i];
+    const SampleWeights weights = sample_weights(logs, static_cast<double>(2 * dimensions + 2));
+    OpenDirections next{Eigen::VectorXd::Zero(dimensions), Eigen::MatrixXd::Zero(dimensions, dimensions)};
+    for (std::size_t i = 0; i < places.size(); ++i) next.mean += weights.values[i] * places[i];
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Eigen::VectorXd off = places[i] - next.mean;
-      next.covariance += weights[i] * off * off.transpose();
+      next.covariance += weights.values[i] * off * off.transpose();
     }
-    // A covariance from so few samples may be too small by chance; it never falls faster than to a quarter.
+    // A covariance from so few samples may be too small by chance; deviations fall to a quarter at most.
     next.covariance += 0.0625 * known.covariance;
-    known = next;
-    if (power == 1) break;
+    known = std::move(next);
+    if (weights.power == 1) break;
   }
   mode.open = known;
   mode.u = rest + mode.axes.open * known.mean;
@@ -296,7 +306,7 @@ void PoseSearch::refine(PoseMode& mode) const {
   follow_pairs(mode, 0.1 * cell(), 0);
 }
 
-Evidence PoseSearch::evidence(std::span<const SurfaceSample> of, const Pose& pose) const {
+PoseEvidence PoseSearch::evidence(std::span<const SurfaceSample> of, const Pose& pose) const {
   std::vector<PlacedSample> samples;
   samples.reserve(of.size());
   for (const SurfaceSample& in_sensor : of) {

@@ -12,7 +12,7 @@ namespace vantage {
 struct PoseMode {
   Eigen::VectorXd u;  // in the whitened prior
   Pose pose = Pose::Identity();
-  Evidence evidence;
+  PoseEvidence evidence;
   PosteriorStep posterior;   // at the peak
   PoseAxes axes;             // the directions that pairs determine, and those that they leave open
   OpenDirections open;       // what is known of the latter
@@ -57,7 +57,7 @@ class PoseSearch {
   void refine(PoseMode& mode) const;
   void follow_pairs(PoseMode& mode, double spread, int settling) const;
   void settle_open(PoseMode& mode) const;
-  [[nodiscard]] Evidence evidence(std::span<const SurfaceSample> samples, const Pose& pose) const;
+  [[nodiscard]] PoseEvidence evidence(std::span<const SurfaceSample> samples, const Pose& pose) const;
   void weigh(PoseMode& mode) const;
   [[nodiscard]] Information coarse_pairs(const OrientedIndex& index, std::span<const SurfaceSample> samples,
                                          const Pose& pose, double spread) const;

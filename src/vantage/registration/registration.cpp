@@ -41,7 +41,7 @@ class Judge {
 
  private:
   [[nodiscard]] Registration described(const PoseMode& mode) const {
-    const Evidence& evidence = mode.evidence;
+    const PoseEvidence& evidence = mode.evidence;
     Registration result;
     result.world_from_sensor = mode.pose;
     result.covariance = mode.posterior.covariance;

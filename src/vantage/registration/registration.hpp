@@ -67,7 +67,7 @@ struct Registration {
 
 /// The most probable pose of a scan (maximum a posteriori): the prior is what is believed of it, the likelihood how its
 /// surfaces and its free space agree with the model's, in the sensor's noise. The result has the same bits for any
-/// number of threads. Throws InputError for options and priors out of range; everything about the data is told by the
+/// number of threads. Throws InputError for options and priors out of range; everything about the data is in the
 /// verdict.
 [[nodiscard]] Registration register_scan(const RegisteredSurface& model, const ScanSurface& scan,
                                          const PoseEstimate& world_from_sensor,

@@ -38,17 +38,17 @@ struct ScanSurfaceOptions {
   void validate() const;
 };
 
-/// The deviation of the depths of a sensor of which nothing is told: that of common stereo and structured-light
+/// The deviation of the depths of a sensor that is not known: that of common stereo and structured-light
 /// cameras.
 constexpr SensorModel usual_sensor{.constant = 0.001, .quadratic = 0.002};
 
-/// Of a range image. Its depths err as is usual where the sensor is not told.
+/// Of a range image. Its depths err as is usual where the sensor is not given.
 [[nodiscard]] ScanSurface scan_surface(const RangeImage& image, const std::optional<SensorModel>& sensor,
                                        const ScanSurfaceOptions& options = {});
 
 /// Of points in the sensor frame whose sight lines start at `origins` (one for all, or one each). Normals come from the
 /// neighbours; a normal that is given (not zero) says on which side of its surface a point was seen, elsewhere the
-/// origin does. Where the sensor is not told the cloud itself shows how thick its surfaces are.
+/// origin does. Where the sensor is not given the cloud itself shows how thick its surfaces are.
 [[nodiscard]] ScanSurface scan_surface(const PointCloud& cloud, std::span<const Vec3> origins,
                                        const std::optional<SensorModel>& sensor,
                                        const ScanSurfaceOptions& options = {});
