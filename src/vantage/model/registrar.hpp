@@ -40,6 +40,15 @@ class Registrar {
   /// `model` holds all scans merged so far; the first scan meets an empty one. `points` are those of the scan.
   [[nodiscard]] virtual Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                        const View& believed) = 0;
+  /// What is known of the pose of a scan before it is registered.
+  [[nodiscard]] virtual PoseEstimate prior(const ModelSurface& /*model*/, const View& believed) const {
+    return {believed.world_from_sensor, Mat6::Zero()};
+  }
+  /// The same as locate() for a scan that was refused before, when `known` was known of its pose.
+  [[nodiscard]] virtual Located locate_again(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                             const PoseEstimate& known) {
+    return locate(model, scan, points, View{known.mean});
+  }
   /// The scan as registration sees it, for one whose pose has been found before; nothing where it does not look.
   [[nodiscard]] virtual std::shared_ptr<const ScanSurface> surface_of(const Scan& /*scan*/,
                                                                       const PointCloud& /*points*/,
@@ -48,6 +57,8 @@ class Registrar {
   }
   /// From now on the robot is believed to err like this.
   virtual void believe(const PoseError& /*error*/) {}
+  /// True where the pose is found out from the model, so that it may be found later where it is not found now.
+  [[nodiscard]] virtual bool estimates() const { return true; }
 };
 
 /// Takes the robot's word for its pose.
@@ -56,6 +67,7 @@ class TrustingRegistrar : public Registrar {
   [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View& believed) override {
     return {believed, true, 1, 0, "believed", "the robot's own pose"};
   }
+  [[nodiscard]] bool estimates() const override { return false; }
 };
 
 /// Knows the true pose (simulation; the paper's experiments).
@@ -65,6 +77,7 @@ class TruthRegistrar : public Registrar {
   [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View&) override {
     return {true_view_(), true, 1, 0, "truth", "the simulation's true pose"};
   }
+  [[nodiscard]] bool estimates() const override { return false; }
 
  private:
   std::function<View()> true_view_;
@@ -81,6 +94,7 @@ struct RegistrarOptions {
   /// Only points in this box (world frame, by the believed pose) take part where it is given: what is known to stand
   /// still.
   std::optional<Box3> region;
+  bool first_is_exact = false;  // the first scan is where it is believed to be
   RegistrationOptions registration;
 };
 
@@ -91,6 +105,9 @@ class IcpRegistrar : public Registrar {
   explicit IcpRegistrar(RegistrarOptions options = {});
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override;
+  [[nodiscard]] PoseEstimate prior(const ModelSurface& model, const View& believed) const override;
+  [[nodiscard]] Located locate_again(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                     const PoseEstimate& known) override;
   [[nodiscard]] std::shared_ptr<const ScanSurface> surface_of(const Scan& scan, const PointCloud& points,
                                                               const View& believed) const override;
   void believe(const PoseError& error) override;

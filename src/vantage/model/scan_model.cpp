@@ -57,12 +57,14 @@ const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& measured,
   if (record.merged) distances_.push_back((position - center_).norm());
   current_ = record.registered;
   current_.world_from_sensor.translation() = position;
+  if (origin.commanded) with_command_.insert(record.scan);
   if (learner) {
-    if (origin.commanded) {
-      (void)teach(*learner, record);
-    } else {
-      record.learned_error = learner->estimate();
+    std::vector<const ScanRecord*> lessons{&record};
+    for (const int number : record.recovered) lessons.push_back(&model_.scans[static_cast<std::size_t>(number)]);
+    for (const ScanRecord* lesson : lessons) {
+      if (with_command_.contains(lesson->scan)) (void)teach(*learner, *lesson);
     }
+    record.learned_error = learner->estimate();
   }
   model_.scans.push_back(std::move(record));
   return model_.scans.back();

@@ -20,6 +20,19 @@ class KeepingRegistrar : public Registrar {
     }
     return found_;
   }
+  [[nodiscard]] Located locate_again(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                     const PoseEstimate& known) override {
+    return registrar_.locate_again(model, scan, points, known);
+  }
+  [[nodiscard]] PoseEstimate prior(const ModelSurface& model, const View& believed) const override {
+    return registrar_.prior(model, believed);
+  }
+  [[nodiscard]] std::shared_ptr<const ScanSurface> surface_of(const Scan& scan, const PointCloud& points,
+                                                              const View& believed) const override {
+    return registrar_.surface_of(scan, points, believed);
+  }
+  void believe(const PoseError& error) override { registrar_.believe(error); }
+  [[nodiscard]] bool estimates() const override { return registrar_.estimates(); }
   [[nodiscard]] const Located& found() const { return found_; }
 
  private:

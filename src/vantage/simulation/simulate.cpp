@@ -26,7 +26,17 @@ std::unique_ptr<Registrar> make_registrar(const ReconstructOptions& options, con
     registrar.error = std::make_shared<ConstantError>(PoseError());
   }
   registrar.sensor = options.sensor_model();
+  registrar.first_is_exact = simulated_robot_options(options).first_pose_exact;
   return std::make_unique<IcpRegistrar>(registrar);
+}
+
+/// How far the scan's points are off in the mean where it counts as taken from `registered`, metres.
+double mean_displacement(const PointCloud& points, const View& registered, const View& truth) {
+  double sum = 0;
+  for (const Vec3& point : points.points)
+    sum += (registered.world_from_sensor * point - truth.world_from_sensor * point).norm();
+  return points.size() == 0 ? (registered.position() - truth.position()).norm()
+                            : sum / static_cast<double>(points.size());
 }
 
 }  // namespace
@@ -67,9 +77,18 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   loop.on_plan = observer.on_plan;
   loop.on_scan = [&](ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
     record.true_view = robot.true_view();
+    record.pose_error = mean_displacement(points_of(scan), record.registered, *record.true_view);
     record.coverage = object.truth().coverage(model.map);
     record.coverage_all = object.truth().coverage_all(model.map);
     observer.on_scan(record, scan, model, plan);
+  };
+  loop.on_end = [&](ObjectModel& model) {
+    for (ScanRecord& record : model.scans) {
+      if (const auto kept = model.kept.find(record.scan); kept != model.kept.end())
+        record.pose_error = mean_displacement(points_of(kept->second.scan()), record.registered, *record.true_view);
+    }
+    model.scans.back().coverage = object.truth().coverage(model.map);
+    model.scans.back().coverage_all = object.truth().coverage_all(model.map);
   };
   loop.run(run.model, options.initial_view);
   run.stop_reason = loop.stop_reason();
