@@ -144,7 +144,7 @@ std::vector<ExperimentReport::Part> RobustnessRuns::report(const Outcomes& outco
       "registered at once; recovered: those of them that were merged later. Displacement: mean over a scan's points, "
       "of "
       "merged scans after the first.",
-      objects.size(), options.seeds, options.depth_noise.x(), options.depth_noise.y(), options.utility);
+      objects.size(), options.seeds, options.depth_noise.a, options.depth_noise.b, options.utility);
   ExperimentTable by_object =
       table_of("robustness-objects", "The same object by object", "object, error, registration");
   ExperimentTable times;

@@ -16,7 +16,7 @@ struct RobustnessOptions {
   int first_seed = 1;                   // the runs have this seed and the ones after it
   std::string errors = "0.05:2,0.1:5";  // metres:degrees, one standard deviation per axis
   std::string registrations = "icp,truth,none";
-  Eigen::Vector2d depth_noise{0.002, 0.001};
+  DepthDeviation depth_noise{0.002, 0.001};
   std::string utility = "gain";
 
   /// Throws InputError naming the option.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "vantage/model/frame_offset.hpp"
+
 namespace vantage {
 namespace {
 
@@ -38,7 +40,7 @@ void note(ScanRecord& record, const Located& located) {
 
 /// A scan whose pose is known.
 IntegrationReport merge(ObjectModel& model, int number, const Scan& scan, const PointCloud& points,
-                   const ScanSurface* surface, const View& view, QualityReference quality) {
+                        const ScanSurface* surface, const View& view, QualityReference quality) {
   const IntegrationReport report = integrate(model.map, scan, view, quality);
   model.surface.merge(points, view.world_from_sensor);
   if (surface != nullptr) model.surface.merge(*surface, view.world_from_sensor);
@@ -89,6 +91,17 @@ void improve(ObjectModel& model, const Registrar& registrar, QualityReference qu
   make_again(model, merged_scans(model), registrar, quality);
 }
 
+/// What the robot says of a pose, brought into the frame of the model.
+PoseEstimate in_model(const ObjectModel& model, const PoseEstimate& in_robot) {
+  std::vector<FoundPose> found;
+  for (const int number : merged_scans(model)) {
+    const auto prior = model.priors.find(number);
+    if (prior == model.priors.end()) return in_robot;  // nobody estimates poses
+    found.push_back({prior->second, model.scans[static_cast<std::size_t>(number)].registered.world_from_sensor});
+  }
+  return found.empty() ? in_robot : FrameOffset(found).in_model(in_robot);
+}
+
 std::int64_t occupied_in(const VoxelMap& map, const Box3& box) {
   const std::vector<Index3> occupied = map.occupied_voxels();
   return std::count_if(occupied.begin(), occupied.end(),
@@ -130,7 +143,7 @@ std::vector<int> try_again(ObjectModel& model, Registrar& registrar, QualityRefe
       ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
       const Scan scan = model.kept.at(number).scan();
       const PointCloud points = points_of(scan);
-      const Located located = registrar.locate_again(model.surface, scan, points, waiting.prior);
+      const Located located = registrar.locate_from(model.surface, scan, points, in_model(model, waiting.prior));
       note(record, located);
       if (!record.merged) {
         ++next;
@@ -208,10 +221,13 @@ void add(ObjectModel& model, const Scan& scan, Registrar& registrar, QualityRefe
   auto start = Clock::now();
   const PointCloud points = points_of(scan);
   const PoseEstimate prior = registrar.prior(model.surface, record().believed);
-  const Located located = registrar.locate(model.surface, scan, points, record().believed);
+  const Located located = model.cloud_growth.empty()
+                              ? registrar.locate(model.surface, scan, points, record().believed)
+                              : registrar.locate_from(model.surface, scan, points, in_model(model, prior));
   note(record(), located);
   if (registrar.estimates()) {
-    model.kept.insert_or_assign(number, KeptScan(scan));
+    if (!model.kept_in) model.kept_in = std::make_shared<ScratchFile>();
+    model.kept.insert_or_assign(number, KeptScan(scan, model.kept_in));
     model.priors.insert_or_assign(number, prior);
   }
   record().timings.registration = passed_since(start);

@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "vantage/map/kept_scan.hpp"
+#include "vantage/model/kept_scan.hpp"
 #include "vantage/model/registrar.hpp"
 #include "vantage/model/scan_graph.hpp"
 #include "vantage/model/scan_record.hpp"
@@ -16,7 +17,7 @@ namespace vantage {
 
 /// A scan that could not be registered yet.
 struct WaitingScan {
-  PoseEstimate prior;           // of its pose
+  PoseEstimate prior;           // of its pose, as the robot says
   Box3 box;                     // around its points, by the mean of that
   std::int64_t known_near = 0;  // occupied voxels in the box when it was tried last
 };
@@ -30,7 +31,8 @@ struct ObjectModel {
 
   /// Of the scans whose poses are estimated, by their number: to be used again.
   std::map<int, KeptScan> kept;
-  std::map<int, PoseEstimate> priors;
+  std::shared_ptr<ScratchFile> kept_in;  // made with the first
+  std::map<int, PoseEstimate> priors;    // what the robot says, in its own frame
   std::map<int, WaitingScan> waiting;
   /// How the merged scans lie to each other, where their poses are estimated.
   ScanGraph graph;

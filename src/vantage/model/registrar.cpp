@@ -47,24 +47,25 @@ std::shared_ptr<const ScanSurface> IcpRegistrar::surface_of(const Scan& scan, co
   return surface;
 }
 
-PoseEstimate IcpRegistrar::prior(const ModelSurface& model, const View& believed) const {
-  const bool defines_frame = model.cloud().size() == 0;
-  if (defines_frame && options_.first_is_exact) return {believed.world_from_sensor, Mat6::Zero()};
-  return pose_estimate(believed, options_.error->of_move(last_.value_or(believed), believed));
+PoseEstimate IcpRegistrar::prior(const ModelSurface& model, const View& believed) {
+  const View from = last_.value_or(believed);
+  last_ = believed;
+  const PoseEstimate expected = pose_estimate(believed, options_.error->of_move(from, believed));
+  if (model.cloud().size() > 0) return expected;
+  // The first scan defines the frame of the model.
+  return {believed.world_from_sensor, options_.first_is_exact ? Mat6::Zero() : expected.covariance};
 }
 
 Located IcpRegistrar::locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                              const View& believed) {
-  const PoseEstimate known = prior(model, believed);
-  last_ = believed;
-  if (model.cloud().size() > 0) return locate_again(model, scan, points, known);
+  if (model.cloud().size() > 0) return locate_from(model, scan, points, prior(model, believed));
   Located located{.view = believed, .verdict = "first", .detail = "the first scan defines the frame"};
   located.surface = surface_of(scan, points, believed);
   return located;
 }
 
-Located IcpRegistrar::locate_again(const ModelSurface& model, const Scan& scan, const PointCloud& points,
-                                   const PoseEstimate& known) {
+Located IcpRegistrar::locate_from(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                  const PoseEstimate& known) {
   Located located;
   located.surface = surface_of(scan, points, View{known.mean});
   const Registration found = register_scan(model.registered(), *located.surface, known, options_.registration);

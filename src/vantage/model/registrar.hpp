@@ -40,13 +40,14 @@ class Registrar {
   /// `model` holds all scans merged so far; the first scan meets an empty one. `points` are those of the scan.
   [[nodiscard]] virtual Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                        const View& believed) = 0;
-  /// What is known of the pose of a scan before it is registered.
-  [[nodiscard]] virtual PoseEstimate prior(const ModelSurface& /*model*/, const View& believed) const {
+  /// What the robot alone says of the pose of the next scan, in its own frame. Asked once for every scan, in their
+  /// order.
+  [[nodiscard]] virtual PoseEstimate prior(const ModelSurface& /*model*/, const View& believed) {
     return {believed.world_from_sensor, Mat6::Zero()};
   }
-  /// The same as locate() for a scan that was refused before, when `known` was known of its pose.
-  [[nodiscard]] virtual Located locate_again(const ModelSurface& model, const Scan& scan, const PointCloud& points,
-                                             const PoseEstimate& known) {
+  /// The same as locate() where more is known of the pose, in the frame of the model.
+  [[nodiscard]] virtual Located locate_from(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                            const PoseEstimate& known) {
     return locate(model, scan, points, View{known.mean});
   }
   /// The scan as registration sees it, for one whose pose has been found before; nothing where it does not look.
@@ -105,9 +106,9 @@ class IcpRegistrar : public Registrar {
   explicit IcpRegistrar(RegistrarOptions options = {});
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override;
-  [[nodiscard]] PoseEstimate prior(const ModelSurface& model, const View& believed) const override;
-  [[nodiscard]] Located locate_again(const ModelSurface& model, const Scan& scan, const PointCloud& points,
-                                     const PoseEstimate& known) override;
+  [[nodiscard]] PoseEstimate prior(const ModelSurface& model, const View& believed) override;
+  [[nodiscard]] Located locate_from(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                    const PoseEstimate& known) override;
   [[nodiscard]] std::shared_ptr<const ScanSurface> surface_of(const Scan& scan, const PointCloud& points,
                                                               const View& believed) const override;
   void believe(const PoseError& error) override;

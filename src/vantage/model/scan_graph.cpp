@@ -1,35 +1,18 @@
 #include "vantage/model/scan_graph.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace vantage {
 namespace {
 
-constexpr std::size_t recent = 12;            // scans that count as just taken
-constexpr std::size_t asked_of_each = 6;      // recent ones, and older ones, that are asked how much they overlap
-constexpr std::size_t paired = 5;             // with those that overlap most
-constexpr double least_overlap = 0.1;         // share of samples
-constexpr double certain_position = 1e-6;     // metres: deviations below count as this, so that the inverse exists
-constexpr double certain_orientation = 1e-6;  // radians
+constexpr std::size_t recent = 12;        // scans that count as just taken
+constexpr std::size_t asked_of_each = 6;  // recent ones, and older ones, that are asked how much they overlap
+constexpr std::size_t paired = 5;         // with those that overlap most
+constexpr double least_overlap = 0.1;     // share of samples
 
 /// How alike two sensors see: the distance of their positions plus that of points a metre ahead.
 double difference(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm() + (a * Vec3(0, 0, 1) - b * Vec3(0, 0, 1)).norm();
-}
-
-Mat6 inverse_covariance(const Mat6& covariance) {
-  Vec6 least;
-  least << Vec3::Constant(certain_position * certain_position),
-      Vec3::Constant(certain_orientation * certain_orientation);
-  const Vec6 deviations = (covariance.diagonal() + least).cwiseSqrt();
-  const Vec6 inverse = deviations.cwiseInverse();
-  // Scaled to a unit diagonal first: metres and radians have nothing to do with each other.
-  const Mat6 correlation = inverse.asDiagonal() * (covariance + Mat6(least.asDiagonal())) * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Mat6> solver(correlation);
-  const Vec6 of_values = solver.eigenvalues().cwiseMax(1e-9).cwiseInverse();
-  const Mat6 inverse_correlation = solver.eigenvectors() * of_values.asDiagonal() * solver.eigenvectors().transpose();
-  return inverse.asDiagonal() * inverse_correlation * inverse.asDiagonal();
 }
 
 }  // namespace

@@ -30,6 +30,9 @@ std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const 
   RegistrarOptions registrar;
   registrar.error = std::make_shared<ConstantError>(PoseError::from_deviations(
       Vec3::Constant(options.pose_error / 3), Vec3::Constant(radians(options.pose_angle_error) / 3)));
+  registrar.sensor = scene.sensor.given();
+  // In front of real sensors hands and cables move through the box, and things shine.
+  registrar.registration.outlier_share = 0.03;
   registrar.region = scene.region;
   // The box itself: the region less its surroundings, in which the robot may be seen to move.
   const double longest = scene.region.sizes().maxCoeff() / (1 + 2 * options.surroundings);

@@ -145,7 +145,7 @@ PlannerOptions ReconstructOptions::planner_options() const {
   if (registration == "icp" && registrable > 0) {
     result.registrability.emplace();
     result.registrability->error = believed_error_model(center);
-    result.registrability->sensor = {.constant = depth_noise.x(), .quadratic = depth_noise.y()};
+    result.registrability->sensor = sensor_model();
     result.registrability->least_probability = registrable;
     result.registrability->least_overlap = least_overlap;
   }

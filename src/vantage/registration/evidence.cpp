@@ -11,25 +11,29 @@ namespace {
 /// samples. Residuals of three standard deviations cost as much, so that what is no match counts nothing.
 constexpr double worth = 4.5;
 
-/// A sample of the scan, at its place in the world, in the free space of earlier scans.
-void look_from_earlier_scans(const Vec3& point, std::span<const PosedFreeSpace> spaces, PoseEvidence& evidence) {
-  bool is_seen = false;
+/// What earlier scans say of a place.
+FreeSpace::Answer seen_by_earlier_scans(const Vec3& point, std::span<const PosedFreeSpace> spaces) {
+  FreeSpace::Answer seen = FreeSpace::Answer::unknown;
   for (const PosedFreeSpace& space : spaces) {
     const FreeSpace::Answer answer = space.space.at(space.sensor_from_world * point);
-    is_seen = is_seen || answer != FreeSpace::Answer::unknown;
-    if (answer == FreeSpace::Answer::free) {
-      evidence.in_free_space += 1;
-      evidence.log_likelihood -= worth;
-      break;
-    }
+    if (answer == FreeSpace::Answer::free) return answer;
+    if (answer != FreeSpace::Answer::unknown) seen = answer;
   }
-  evidence.looked_at += is_seen ? 1 : 0;
+  return seen;
+}
+
+/// True where the sample may be a known surface that is misplaced by the pose.
+bool is_explained(const SurfaceSample& sample, const PartnerLimits& limits) {
+  if (limits.known == nullptr) return true;
+  const SurfaceSample* nearest = limits.known->nearest(sample);
+  return nearest != nullptr &&
+         (nearest->point - sample.point).squaredNorm() < limits.explained_within * limits.explained_within;
 }
 
 }  // namespace
 
 PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSample> samples, const FreeSpace* own,
-                     const RegisteredSurface& model, const PartnerLimits& limits) {
+                         const RegisteredSurface& model, const PartnerLimits& limits) {
   PoseEvidence evidence;
   evidence.asked = static_cast<double>(samples.size());
   for (const auto& [sample, partner] : samples) {
@@ -48,8 +52,14 @@ PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSa
         }
       }
     }
-    if (!limits.still || limits.still->contains(sample.point))
-      look_from_earlier_scans(sample.point, model.free_spaces(), evidence);
+    if (limits.still && !limits.still->contains(sample.point)) continue;
+    const FreeSpace::Answer seen = seen_by_earlier_scans(sample.point, model.free_spaces());
+    const bool is_new = seen == FreeSpace::Answer::free && !is_explained(sample, limits);
+    if (seen == FreeSpace::Answer::unknown || is_new) continue;
+    evidence.looked_at += 1;
+    if (seen != FreeSpace::Answer::free) continue;
+    evidence.in_free_space += 1;
+    evidence.log_likelihood -= worth;
   }
   if (own == nullptr) return evidence;
   const std::span<const SurfaceSample> surfels = model.surfels().surfels();

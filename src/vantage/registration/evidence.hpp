@@ -4,6 +4,7 @@
 #include <span>
 
 #include "vantage/registration/model_surface.hpp"
+#include "vantage/registration/oriented_index.hpp"
 #include "vantage/registration/pose_fit.hpp"
 
 namespace vantage {
@@ -34,10 +35,15 @@ struct PartnerLimits {
   double floor = 0;  // variance that is added to those of both samples, m^2
   /// Where nothing moves (world frame), so that free space means something; everywhere if not given.
   std::optional<Box3> still = {};
+  /// A surface in free space speaks against the pose only where the same surface is known nearer than this, metres:
+  /// what is farther from all that is known was not there before, and says nothing of where the sensor was.
+  double explained_within = 0;
+  const OrientedIndex* known = nullptr;  // of the model; where it is not given everything counts
 };
 
 /// Weighs a pose against the model. `own`: what the scan itself shows to be empty, if that is known.
 [[nodiscard]] PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSample> samples,
-                                   const FreeSpace* own, const RegisteredSurface& model, const PartnerLimits& limits);
+                                       const FreeSpace* own, const RegisteredSurface& model,
+                                       const PartnerLimits& limits);
 
 }  // namespace vantage

@@ -58,6 +58,23 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> root_of_variances(const Mat6& covarianc
   return root.leftCols(count);
 }
 
+Mat6 inverse_covariance(const Mat6& covariance) {
+  // Deviations below count as these, so that the inverse exists.
+  constexpr double certain_position = 1e-6;     // metres
+  constexpr double certain_orientation = 1e-6;  // radians
+  Vec6 least;
+  least << Vec3::Constant(certain_position * certain_position),
+      Vec3::Constant(certain_orientation * certain_orientation);
+  const Vec6 deviations = (covariance.diagonal() + least).cwiseSqrt();
+  const Vec6 inverse = deviations.cwiseInverse();
+  // Scaled to a unit diagonal first: metres and radians have nothing to do with each other.
+  const Mat6 correlation = inverse.asDiagonal() * (covariance + Mat6(least.asDiagonal())) * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(correlation);
+  const Vec6 of_values = solver.eigenvalues().cwiseMax(1e-9).cwiseInverse();
+  const Mat6 inverse_correlation = solver.eigenvectors() * of_values.asDiagonal() * solver.eigenvectors().transpose();
+  return inverse.asDiagonal() * inverse_correlation * inverse.asDiagonal();
+}
+
 double chi_squared_limit(int degrees_of_freedom) {
   constexpr double limits[] = {10.828, 13.816, 16.266, 18.467, 20.515, 22.458};
   require(degrees_of_freedom >= 1 && degrees_of_freedom <= 6, "chi-squared limit: ", degrees_of_freedom,

@@ -32,6 +32,9 @@ struct PoseEstimate {
 /// standard normal u.
 [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> root_of_variances(const Mat6& covariance);
 
+/// The inverse of a pose's covariance. What is known exactly counts as known to a micrometre and a microradian.
+[[nodiscard]] Mat6 inverse_covariance(const Mat6& covariance);
+
 /// The quantile of the chi-squared distribution that 99.9 % stay below; `degrees_of_freedom` in 1..6.
 [[nodiscard]] double chi_squared_limit(int degrees_of_freedom);
 

@@ -57,12 +57,13 @@ class WhitenedPrior {
 /// The directions of u that pairs determine, and those that they leave open: orthonormal columns.
 struct PoseAxes {
   Eigen::MatrixXd determined, open;
+  double shared_variance = 0;  // in u, of the errors that all pairs share
 };
 
-/// Open are the directions of which the pairs know less than the prior, or in which most of what they seem to know
-/// comes from the noise of their normals. `worth` (0..1]: of a pair, since errors that neighbours share do not average
-/// out.
-[[nodiscard]] PoseAxes pose_axes(const WhitenedPrior& prior, const Information& pairs, double worth);
+/// Open are the directions of which the pairs know less than the prior, or in which what they seem to know may come
+/// from the noise of their normals. `shared_error`: part of a pair's standard deviation that all pairs have in common,
+/// so that it does not average out.
+[[nodiscard]] PoseAxes pose_axes(const WhitenedPrior& prior, const Information& pairs, double shared_error);
 
 /// The step in u to the most probable pose, and how well it is known then.
 struct PosteriorStep {
@@ -74,20 +75,9 @@ struct PosteriorStep {
 /// Gauss-Newton step to the maximum of the posterior, everything counted: for a search that is still far off.
 [[nodiscard]] Eigen::VectorXd searching_step(const WhitenedPrior& prior, const Information& pairs,
                                              const Eigen::VectorXd& u);
-/// What is known of the open directions: their place and covariance in u, the prior's (0 and I) unless something other
-/// than pairs tells more.
-struct OpenDirections {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
 
-  [[nodiscard]] static OpenDirections of_prior(Eigen::Index count) {
-    return {Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Identity(count, count)};
-  }
-};
-
-/// The same, with the open directions kept where they are known to be.
+/// The same, with the open directions kept where the prior has them.
 [[nodiscard]] PosteriorStep posterior_step(const WhitenedPrior& prior, const Information& pairs,
-                                           const Eigen::VectorXd& u, const PoseAxes& axes, const OpenDirections& open,
-                                           double worth);
+                                           const Eigen::VectorXd& u, const PoseAxes& axes);
 
 }  // namespace vantage

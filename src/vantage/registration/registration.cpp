@@ -46,7 +46,7 @@ class Judge {
     result.world_from_sensor = mode.pose;
     result.covariance = mode.posterior.covariance;
     result.information = mode.posterior.information;
-    result.undetermined_directions = mode.still_open();
+    result.undetermined_directions = static_cast<int>(mode.axes.open.cols());
     result.overlap = evidence.overlap();
     result.residual = evidence.on_surface > 0 ? std::sqrt(evidence.squared_distances / evidence.on_surface) : 0;
     result.prior_chi_squared = mode.u.squaredNorm();

@@ -5,6 +5,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/registration/pose_fit.hpp"
+#include "vantage/registration/sample_choice.hpp"
 
 namespace vantage {
 namespace {
@@ -12,14 +13,6 @@ namespace {
 constexpr int fewest_pairs = 20;
 constexpr std::size_t most_surfels = 8000;
 constexpr std::size_t asked_samples = 200;  // about how much two scans overlap
-
-/// Every so many-th sample, so that at most `most` are left.
-std::vector<SurfaceSample> thinned(const std::vector<SurfaceSample>& samples, std::size_t most) {
-  std::vector<SurfaceSample> picked;
-  const std::size_t count = std::min(most, samples.size());
-  for (std::size_t i = 0; i < count; ++i) picked.push_back(samples[i * samples.size() / count]);
-  return picked;
-}
 
 Information pairs_at(const SurfelMap& surfels, const std::vector<SurfaceSample>& samples, const Pose& pose,
                      double spread) {
@@ -52,9 +45,9 @@ void ScanPairOptions::validate() const {
 }
 
 PairedSurface::PairedSurface(const ScanSurface& scan, const ScanPairOptions& options)
-    : surfels_(scan.spacing > 0 ? scan.spacing : 1), samples_(thinned(scan.samples, options.max_samples)) {
+    : surfels_(scan.spacing > 0 ? scan.spacing : 1), samples_(picked_by_normal(scan.samples, options.max_samples)) {
   options.validate();
-  for (const SurfaceSample& sample : thinned(scan.samples, most_surfels)) surfels_.add(sample);
+  for (const SurfaceSample& sample : picked_by_normal(scan.samples, most_surfels)) surfels_.add(sample);
   double squares = 0;
   for (const SurfaceSample& sample : samples_) squares += sample.point.squaredNorm();
   if (!samples_.empty()) distance_ = std::sqrt(squares / static_cast<double>(samples_.size()));
@@ -84,16 +77,14 @@ std::optional<PoseConstraint> constraint_between(const PairedSurface& from, cons
       fewest_pairs, static_cast<int>(std::ceil(options.least_overlap * static_cast<double>(to.samples_.size()))));
   // What is not determined stays where it was: as if the pose were known to three cells, which the pairs outweigh.
   const WhitenedPrior prior(PoseEstimate::around(from_of_to, 3 * cell, 3 * cell / to.distance_));
-  const double common = options.shared_error * options.shared_error;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(prior.dimensions());
   PosteriorStep posterior;
   double spread = 2 * cell;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const Information pairs = pairs_at(from.surfels_, to.samples_, prior.pose(u), spread);
     if (pairs.pairs < fewest) return std::nullopt;
-    const double worth = 1 / (common * pairs.pairs + (1 - common));
-    const PoseAxes axes = pose_axes(prior, pairs, worth);
-    posterior = posterior_step(prior, pairs, u, axes, OpenDirections::of_prior(axes.open.cols()), worth);
+    const PoseAxes axes = pose_axes(prior, pairs, options.shared_error);
+    posterior = posterior_step(prior, pairs, u, axes);
     u += posterior.step;
     if (spread == 0 && posterior.step.norm() < 1e-3) break;
     spread = spread > 0.02 * cell ? spread / 3 : 0;

@@ -11,7 +11,7 @@
 namespace vantage {
 
 struct ScanPairOptions {
-  std::size_t max_samples = 400;  // of a scan that are laid on the other one
+  std::size_t max_samples = 800;  // of a scan that are laid on the other one
   double least_overlap = 0.1;     // share of them that must lie on it
   int iterations = 12;
   /// Part of a sample's error that all samples of a scan have in common: however many there are, they are worth no more
