@@ -81,13 +81,16 @@ void print_scan_set(const ScanSet& set) {
 }
 
 std::string record_line(const ScanRecord& record) {
+  // Why a scan was refused, and which directions stay as believed.
+  const bool has_more = !record.merged || record.undetermined_directions > 0;
+  const std::string more = has_more ? fmt::format("{:<24} {}\n", "", printable(record.detail)) : "";
   return fmt::format(
       "{:<24} {:<20} overlap {:>5.1f} %  residual {:>6.2f} mm  moved {:>5.1f} mm {:>4.1f} deg  {:>5} new voxels"
-      "{:>5} taken back  {:>5} flying pixels{}\n",
+      "{:>5} taken back  {:>5} flying pixels{}\n{}",
       printable(record.reason), record.verdict, 100 * record.overlap, 1000 * record.residual,
       1000 * (record.registered.position() - record.believed.position()).norm(),
       degrees(rotation_angle(record.registered.world_from_sensor.linear(), record.believed.world_from_sensor.linear())),
-      record.new_occupied, record.taken_back, record.flying, record.merged ? "" : "  NOT MERGED");
+      record.new_occupied, record.taken_back, record.flying, record.merged ? "" : "  NOT MERGED", more);
 }
 
 void print_move(const Move& move) {

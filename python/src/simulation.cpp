@@ -97,6 +97,10 @@ void bind_records(py::module_& module) {
       .def_readonly("coverage", &ScanRecord::coverage, "Of the visible surface, 0 to 1; None where not simulated.")
       .def_readonly("coverage_all", &ScanRecord::coverage_all, "Of the whole surface.")
       .def_readonly("merged", &ScanRecord::merged, "False where registration failed.")
+      .def_readonly("merged_after", &ScanRecord::merged_after, "The scan after which it came into the map, or None.")
+      .def_readonly("true_view", &ScanRecord::true_view, "(4, 4), world from sensor; None where not simulated.")
+      .def_readonly("pose_error", &ScanRecord::pose_error,
+                    "Mean distance of its points from where they should be, metres; None where not simulated.")
       .def_readonly("overlap", &ScanRecord::overlap)
       .def_readonly("residual", &ScanRecord::residual, "Metres.")
       .def_readonly("verdict", &ScanRecord::verdict)

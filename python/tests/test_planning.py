@@ -147,7 +147,7 @@ class Registration(unittest.TestCase):
         believed = second.copy()
         believed[:3, 3] += [0.02, -0.03, 0.01]
         found = vantage.register_scan(model, vantage.Scan(scanner.scan(camera, second)), believed,
-                                      vantage.RegistrationOptions(search_radius=0.15))
+                                      pose_error=0.1)
         self.assertEqual((found.verdict, found.succeeded), ("registered", True))
         np.testing.assert_allclose(found.world_from_sensor, second, atol=2e-3)
 

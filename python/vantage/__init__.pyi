@@ -589,6 +589,15 @@ class ScanRecord:
     def merged(self) -> bool:
         """False where registration failed."""
     @property
+    def merged_after(self) -> Optional[int]:
+        """The scan after which it came into the map, or None."""
+    @property
+    def true_view(self) -> Optional[NDArray[numpy.float64]]:
+        """(4, 4), world from sensor; None where not simulated."""
+    @property
+    def pose_error(self) -> Optional[float]:
+        """Mean distance of its points from where they should be, metres; None where not simulated."""
+    @property
     def overlap(self) -> float: ...
     @property
     def residual(self) -> float:

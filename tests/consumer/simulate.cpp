@@ -18,6 +18,7 @@ int main() {
 
   ModelSurface model(0.005);
   model.merge(scan, view.world_from_sensor);
+  model.merge(*IcpRegistrar().surface_of(frame, scan, view), view.world_from_sensor);
   View believed = view;
   believed.world_from_sensor.pretranslate(Vec3(0.005, 0, 0));
   const Located located = IcpRegistrar().locate(model, frame, scan, believed);

@@ -28,13 +28,13 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-RegistrationOptions searching(double pose_error) {
-  RegistrationOptions options;
-  options.search_radius = pose_error;
-  options.finest_cell_in_spacings = 2;
-  options.trust = 0.01;
-  options.largest_open_misfit = pose_error;
-  return options;
+/// What registration sees of a frame, and what it believes of its pose where that is off by at most `pose_error`.
+ScanSurface surface_of(const PointCloud& cloud) {
+  const Vec3 sensor = Vec3::Zero();
+  return scan_surface(cloud, {&sensor, 1}, std::nullopt);
+}
+PoseEstimate believed(const Pose& pose, double pose_error) {
+  return PoseEstimate::around(pose, pose_error / 3, radians(5) / 3);
 }
 
 struct Registered {
@@ -47,24 +47,23 @@ struct Registered {
 Registered registered(const Evidence& evidence, const Reading& reading, double pose_error,
                       const std::function<bool(std::size_t)>& moves) {
   Registered result{reading, 0};
-  const double spacing = 0.01 * reading.depth_scale * evidence.median_depth();
-  if (spacing <= 0) return result;
-  ModelSurface model(spacing);
+  if (evidence.median_depth() <= 0) return result;
+  RegisteredSurface model;
   for (std::size_t i = 0; i < evidence.frames.size(); ++i) {
-    if (!moves(i)) model.merge(points_of(evidence.frames[i], reading), reading.world_from_sensor[i]);
+    if (!moves(i)) model.merge(surface_of(points_of(evidence.frames[i], reading)), reading.world_from_sensor[i]);
   }
   for (std::size_t i = 0; i < evidence.frames.size(); ++i) {
     if (!moves(i)) continue;
-    const PointCloud cloud = points_of(evidence.frames[i], reading);
+    const ScanSurface surface = surface_of(points_of(evidence.frames[i], reading));
     Pose& pose = result.reading.world_from_sensor[i];
-    if (model.cloud().size() > 0) {
-      const Registration found = register_scan(model, cloud, pose, searching(pose_error));
+    if (!model.empty()) {
+      const Registration found = register_scan(model, surface, believed(pose, pose_error));
       if (found.succeeded()) {
         pose = found.world_from_sensor;
         ++result.frames;
       }
     }
-    model.merge(cloud, pose);
+    model.merge(surface, pose);
   }
   return result;
 }

@@ -14,4 +14,8 @@ namespace vantage {
 /// `registration`: what ICP makes of the scans with and without overlap in the utility, with and without convolution.
 [[nodiscard]] Experiment registration_experiment(const ExperimentOptions& options);
 
+/// `robustness`: whole runs of a robot that misses with ICP, true and believed poses: how many see all, how many scans
+/// are refused and recovered, how far merged scans are off.
+[[nodiscard]] Experiment robustness_experiment(const ExperimentOptions& options);
+
 }  // namespace vantage

@@ -52,14 +52,15 @@ std::vector<SweepRun> runs_from_starts(const std::string& name, const std::share
 }
 
 std::vector<SweepRun> runs_with_seeds(const std::string& name, const std::shared_ptr<const SweepObject>& object,
-                                      const ReconstructOptions& options, int seeds, const ExtraMeasures& extra) {
+                                      const ReconstructOptions& options, int seeds, const ExtraMeasures& extra,
+                                      int first_seed) {
   const VoxelMap map(options.scene_options());
   const std::vector<View> views = options.candidate_views().views;
   const ReachOptions reach = options.planner_options().reach;
   require(std::any_of(views.begin(), views.end(), [&](const View& view) { return !why_infeasible(map, view, reach); }),
           name, ": none of the ", views.size(), " candidate views is feasible");
   std::vector<SweepRun> runs;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = first_seed; seed < first_seed + seeds; ++seed) {
     ReconstructOptions mine = options;
     mine.seed = static_cast<std::uint64_t>(seed);
     Random random(mine.seed, start_stream);

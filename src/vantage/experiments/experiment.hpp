@@ -65,11 +65,11 @@ struct Experiment {
                                                      const std::shared_ptr<const SweepObject>& object,
                                                      const ReconstructOptions& options, int starts);
 
-/// The same reconstruction with seeds 1 .. `seeds`, each from an initial view of its own that is drawn among the
-/// feasible candidates by the seed alone, so that methods with the same candidates start alike.
+/// The same reconstruction with `seeds` seeds from `first_seed` on, each from an initial view of its own that is drawn
+/// among the feasible candidates by the seed alone, so that methods with the same candidates start alike.
 [[nodiscard]] std::vector<SweepRun> runs_with_seeds(const std::string& name,
                                                     const std::shared_ptr<const SweepObject>& object,
                                                     const ReconstructOptions& options, int seeds,
-                                                    const ExtraMeasures& extra = {});
+                                                    const ExtraMeasures& extra = {}, int first_seed = 1);
 
 }  // namespace vantage

@@ -32,6 +32,7 @@ constexpr Named makers[] = {{"table1", exhaustive_table, true},
                             {"orientation", orientation_experiment, false},
                             {"learning", learning_experiment, false},
                             {"registration", registration_experiment, false},
+                            {"robustness", robustness_experiment, false},
                             {"compare", comparison, false}};
 
 }  // namespace
@@ -42,6 +43,7 @@ void ExperimentOptions::validate() const {
   require(!objects || std::filesystem::is_directory(*objects), "objects = '", objects.value_or(""),
           "': must be a folder of meshes NAME.ply");
   compare.validate();
+  robustness.validate();
 }
 
 std::optional<std::filesystem::path> ExperimentOptions::folder() const {

@@ -8,6 +8,7 @@
 
 #include "vantage/experiments/compare_options.hpp"
 #include "vantage/experiments/experiment.hpp"
+#include "vantage/experiments/robustness_options.hpp"
 #include "vantage/experiments/sweep.hpp"
 
 namespace vantage {
@@ -17,6 +18,7 @@ struct ExperimentOptions {
   int starts = 10;                     // initial views of tables 1, 2 and 4
   int seeds = 24;                      // paired runs of figures 10 and 11
   CompareOptions compare = {};
+  RobustnessOptions robustness = {};
 
   void validate() const;
   [[nodiscard]] std::optional<std::filesystem::path> folder() const;
@@ -24,10 +26,12 @@ struct ExperimentOptions {
 
 template <class Field>
 void describe(ExperimentOptions& o, Field&& field) {
-  field("objects", o.objects, "", "folder with NAME.ply of the paper's objects; built-in objects if not given");
+  field("objects", o.objects, "",
+        "folder with NAME.ply of the paper's objects (of robustness: or any others); built-in objects if not given");
   field("starts", o.starts, "", "initial views that tables 1, 2 and 4 average over; figure 9 takes at least 20");
   field("seeds", o.seeds, "", "paired runs per method of figures 10 and 11");
   describe(o.compare, field);
+  describe(o.robustness, field);
 }
 
 /// The experiments that can be run, in the paper's order.

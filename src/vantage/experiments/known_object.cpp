@@ -152,7 +152,7 @@ KnownScans known_scans(const SimulatedObject& object, const ReconstructOptions& 
   std::map<Index3, std::size_t, XFastest> number;
   KnownScans scans;
   std::size_t visible = 0;
-  for (const SurfaceSample& sample : sample_surface(object.scanner().mesh(), samples, random)) {
+  for (const MeshSample& sample : sample_surface(object.scanner().mesh(), samples, random)) {
     const Index3 voxel = grid.index_of(sample.point);
     if (!scene.enclosure().contains(voxel) || !object.truth().is_visible(voxel)) continue;
     const auto [at, is_new] = number.emplace(voxel, number.size());

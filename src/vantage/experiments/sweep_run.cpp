@@ -43,22 +43,38 @@ void add_scan(RunOutcome& outcome, const ScanRecord& record, const Scan& scan, c
   add("utility", record.planned ? record.planned->utility : not_known);
   add("overlap", record.merged ? overlap_with_before(record, scan, model.map) : not_known);
   add("registration_overlap", record.overlap);
-  add("merged", record.merged ? 1 : 0);
   add("residual", record.residual);
-  const View& truth = record.true_view.value_or(record.registered);
-  add("position_error", (record.registered.position() - truth.position()).norm());
-  add("orientation_error",
-      rotation_angle(record.registered.world_from_sensor.linear(), truth.world_from_sensor.linear()));
   outcome.times["plan"].push_back(1000 * record.timings.plan);
   outcome.times["registration"].push_back(1000 * record.timings.registration);
   outcome.times["integration"].push_back(1000 * record.timings.integration);
 }
 
+/// What is known of a scan when the run has ended: it may have been merged later than it was taken.
+void add_final(RunOutcome& outcome, const ScanRecord& record) {
+  const auto add = [&outcome](const char* name, double value) { outcome.lists[name].push_back(value); };
+  add("merged", record.merged ? 1 : 0);
+  add("merged_at_once", record.merged_after == record.scan ? 1 : 0);
+  add("register_probability",
+      record.planned && record.planned->registrability ? record.planned->registrability->probability : not_known);
+  const View& truth = record.true_view.value_or(record.registered);
+  add("position_error", (record.registered.position() - truth.position()).norm());
+  add("orientation_error",
+      rotation_angle(record.registered.world_from_sensor.linear(), truth.world_from_sensor.linear()));
+  add("pose_error", record.pose_error.value_or(not_known));
+}
+
 void add_totals(RunOutcome& outcome, const SimulatedRun& run) {
-  const ScanRecord& last = run.model.scans.back();
-  outcome.numbers["views"] = static_cast<double>(run.model.scans.size());
-  outcome.numbers["failed_scans"] = static_cast<double>(std::count_if(
-      run.model.scans.begin(), run.model.scans.end(), [](const ScanRecord& record) { return !record.merged; }));
+  const std::vector<ScanRecord>& scans = run.model.scans;
+  const ScanRecord& last = scans.back();
+  for (const ScanRecord& record : scans) add_final(outcome, record);
+  const auto count = [&scans](const auto& is_counted) {
+    return static_cast<double>(std::count_if(scans.begin(), scans.end(), is_counted));
+  };
+  outcome.numbers["views"] = static_cast<double>(scans.size());
+  outcome.numbers["failed_scans"] = count([](const ScanRecord& scan) { return !scan.merged; });
+  outcome.numbers["refused_scans"] = count([](const ScanRecord& scan) { return scan.merged_after != scan.scan; });
+  outcome.numbers["recovered_scans"] =
+      count([](const ScanRecord& scan) { return scan.merged_after && *scan.merged_after > scan.scan; });
   outcome.numbers["occupied"] = static_cast<double>(last.labels.occupied);
   outcome.numbers["quality"] = last.mean_quality;
   outcome.numbers["distance"] = last.distance;

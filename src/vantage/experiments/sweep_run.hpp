@@ -42,11 +42,14 @@ struct ExtraMeasures {
 };
 
 /// A simulated reconstruction. Its outcome has the numbers `views`, `occupied`, `quality`, `distance`, `coverage`,
-/// `coverage_all`, `failed_scans`, the text `stop_reason`, per scan the lists `coverage`, `coverage_all`, `occupied`,
+/// `coverage_all`, `failed_scans` (never merged), `refused_scans` (not at once), `recovered_scans` (later), the text
+/// `stop_reason`, per scan the lists `coverage`, `coverage_all`, `occupied`,
 /// `new_occupied`, `quality`, `distance` (up to the scan), `candidate`, `n_oc`, `n_op`, `n_um`, `utility` (as planned,
 /// NaN for the first), `overlap` (share of the scan's voxels that were occupied before), `registration_overlap`,
-/// `merged` (1 or 0), `residual`, `position_error` [m] and `orientation_error` [rad] (registered against true pose),
-/// and the times `plan`, `registration`, `integration` per scan.
+/// `residual`, and as they are when the run has ended `merged` and `merged_at_once` (1 or 0), `register_probability`
+/// (as planned, NaN where it was not), `position_error` [m], `orientation_error` [rad] (registered against true pose)
+/// and `pose_error` [m] (mean distance of the scan's points from where they should be), and the times `plan`,
+/// `registration`, `integration` per scan.
 [[nodiscard]] SweepRun reconstruction_run(const std::string& name, std::shared_ptr<const SweepObject> object,
                                           const ReconstructOptions& options, const ExtraMeasures& extra = {});
 

@@ -12,18 +12,12 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-LabelCounts label_counts(const VoxelMap& map) {
-  const auto outside = map.grid().size.cast<std::int64_t>().prod() - map.enclosure().size().cast<std::int64_t>().prod();
-  return {map.count(Label::unmarked), map.count(Label::occupied), map.count(Label::empty) - outside,
-          map.count(Label::occluded), map.count(Label::occplane)};
-}
-
-void merge(ModelSurface& surface, const Scan& scan, const PointCloud& points, const View& view) {
-  if (const auto* image = std::get_if<ImageScan>(&scan)) {
-    surface.merge(points, image->image, view.world_from_sensor);
-  } else {
-    surface.merge(points, view.world_from_sensor);
-  }
+/// Scans that were merged last without bringing anything; refused ones are neither that nor the contrary.
+int fruitless_scans(const std::vector<ScanRecord>& scans) {
+  const std::vector<std::int64_t> gained = gains(scans);
+  int fruitless = 0;
+  for (std::size_t i = scans.size(); i-- > 0 && gained[i] == 0;) fruitless += scans[i].merged_after ? 1 : 0;
+  return fruitless;
 }
 
 }  // namespace
@@ -33,35 +27,6 @@ void Budget::validate() const {
   require(max_distance > 0, "max-distance = ", max_distance, ": must be positive");
   require(max_time > 0, "max-time = ", max_time, " s: must be positive");
   require(max_fruitless_scans >= 1, "max-fruitless-scans = ", max_fruitless_scans, ": must be at least 1");
-}
-
-ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Registrar& registrar,
-                  QualityReference quality) {
-  ScanRecord record;
-  record.scan = static_cast<int>(model.scans.size());
-  record.believed = believed;
-
-  auto start = Clock::now();
-  const PointCloud points = points_of(scan);
-  const Located located = registrar.locate(model.surface, scan, points, believed);
-  record.registered = located.view;
-  record.merged = located.accepted;
-  record.overlap = located.overlap;
-  record.residual = located.residual;
-  record.verdict = located.verdict;
-  record.timings.registration = seconds_since(start);
-
-  start = Clock::now();
-  if (located.accepted) {
-    const IntegrationReport report = integrate(model.map, scan, located.view, quality);
-    record.new_occupied = report.new_occupied;
-    record.taken_back = report.taken_back;
-    merge(model.surface, scan, points, located.view);
-  }
-  record.labels = label_counts(model.map);
-  record.mean_quality = model.map.mean_quality();
-  record.timings.integration = seconds_since(start);
-  return record;
 }
 
 void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, const Plan* plan, int candidate,
@@ -80,22 +45,30 @@ void Reconstruction::scan_and_update(ObjectModel& model, const View& commanded, 
     const ScanRecord& last = model.scans.back();
     record.distance = last.distance + (plan != nullptr ? planner_.distance_of(*plan, last.commanded.position()) : 0);
   }
+  if (record.merged || !record.recovered.empty()) planner_.map_changed();
   if (record.merged) {
-    planner_.map_changed();
     planner_.scanned(record.registered, candidate);
   } else {
     planner_.set_aside(candidate, concat("its scan could not be registered: ", record.verdict));
   }
-  if (learner && teach(*learner, record)) planner_.believe(learner->prediction());
+  for (const int number : record.recovered) {
+    const ScanRecord& earlier = model.scans[static_cast<std::size_t>(number)];
+    planner_.scanned(earlier.registered, earlier.candidate);
+  }
+  if (learner) learn_from(model, record);
   on_scan(record, scan, model, plan);
   model.scans.push_back(std::move(record));
 }
 
-bool teach(ErrorLearner& learner, ScanRecord& record) {
-  const bool is_lesson = record.merged && record.scan > 0;
-  if (is_lesson) learner.add(record.commanded, record.registered);
-  record.learned_error = learner.estimate();
-  return is_lesson;
+void Reconstruction::learn_from(ObjectModel& model, ScanRecord& record) {
+  bool has_learned = teach(*learner, record);
+  for (const int number : record.recovered) {
+    has_learned = teach(*learner, model.scans[static_cast<std::size_t>(number)]) || has_learned;
+  }
+  record.learned_error = learner->estimate();
+  if (!has_learned) return;
+  planner_.believe(learner->prediction());
+  registrar_.believe(learner->prediction());
 }
 
 std::string Reconstruction::why_stop(const ObjectModel& model, double seconds) const {
@@ -106,17 +79,19 @@ std::string Reconstruction::why_stop(const ObjectModel& model, double seconds) c
     return concat("the budget of ", budget.max_distance, " of travel is used up");
   }
   if (seconds >= budget.max_time) return concat("the budget of ", budget.max_time, " s is used up");
-  int fruitless = 0;
-  while (fruitless < scans && model.scans[static_cast<std::size_t>(scans - 1 - fruitless)].new_occupied == 0) {
-    ++fruitless;
-  }
-  if (fruitless >= budget.max_fruitless_scans)
+  if (const int fruitless = fruitless_scans(model.scans); fruitless >= budget.max_fruitless_scans)
     return concat(fruitless, " scans in a row brought no new occupied voxel");
   return {};
 }
 
 void Reconstruction::run(ObjectModel& model, int initial_candidate) {
   budget.validate();
+  explore(model, initial_candidate);
+  (void)conclude(model, registrar_, quality);
+  on_end(model);
+}
+
+void Reconstruction::explore(ObjectModel& model, int initial_candidate) {
   const auto start = Clock::now();
   const auto& candidates = planner_.candidates().views;
   require(initial_candidate >= 0 && initial_candidate < static_cast<int>(candidates.size()),

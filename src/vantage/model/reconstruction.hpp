@@ -3,42 +3,19 @@
 #include <functional>
 #include <limits>
 
-#include "vantage/map/scan.hpp"
-#include "vantage/model/registrar.hpp"
-#include "vantage/model/scan_record.hpp"
+#include "vantage/model/object_model.hpp"
 #include "vantage/planning/planner.hpp"
-#include "vantage/robot/error_learner.hpp"
 #include "vantage/robot/robot.hpp"
 #include "vantage/sensor/sensor_model.hpp"
 
 namespace vantage {
-
-/// What is known of the object: the paper's M.
-struct ObjectModel {
-  VoxelMap map;
-  ModelSurface surface;  // the fused cloud of all merged scans
-  std::vector<ScanRecord> scans;
-  SensorModel sensor;  // how the sensor errs, as far as that is known
-
-  /// `point_spacing`: metres between the points that the fused cloud keeps.
-  ObjectModel(const SceneOptions& scene, double point_spacing) : map(scene), surface(point_spacing) {}
-};
-
-/// Registers a scan and, where that succeeds, merges it into the model and relabels the map. Returns the record of the
-/// scan with everything that follows from the map; the caller adds the plan, the distance and the truth.
-[[nodiscard]] ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Registrar& registrar,
-                                QualityReference quality = QualityReference::axis);
-
-/// Teaches the learner the error of a scan that was merged, and notes in the record what is known then. True where the
-/// scan taught something: the first one defines the frame that the others are registered in.
-bool teach(ErrorLearner& learner, ScanRecord& record);
 
 /// When to stop although there is more to see (spec, section 5).
 struct Budget {
   int max_views = 40;
   double max_distance = std::numeric_limits<double>::infinity();  // as moves are counted: metres, or radians of joints
   double max_time = std::numeric_limits<double>::infinity();      // seconds
-  int max_fruitless_scans = 4;                                    // in a row, without a new occupied voxel
+  int max_fruitless_scans = 4;  // in a row, merged without a new occupied voxel; refused ones do not count
 
   void validate() const;
 };
@@ -62,13 +39,19 @@ class Reconstruction {
   /// Asked between scans; true ends the reconstruction with what has been scanned so far.
   std::function<bool()> interrupted = [] { return false; };
 
+  /// Called once when all scans are done and refused ones have been tried a last time; may add to the records what only
+  /// the caller knows.
+  std::function<void(ObjectModel&)> on_end = [](ObjectModel&) {};
+
   /// Starts at candidate `initial_candidate`. Throws InputError where it is not feasible.
   void run(ObjectModel& model, int initial_candidate);
   /// Why run() ended.
   [[nodiscard]] const std::string& stop_reason() const { return stop_reason_; }
 
  private:
+  void explore(ObjectModel& model, int initial_candidate);
   void scan_and_update(ObjectModel& model, const View& commanded, const Plan* plan, int candidate, double plan_seconds);
+  void learn_from(ObjectModel& model, ScanRecord& record);
   [[nodiscard]] std::string why_stop(const ObjectModel& model, double seconds) const;
 
   Robot& robot_;

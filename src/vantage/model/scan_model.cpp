@@ -26,17 +26,19 @@ int candidate_at(const Candidates& candidates, const View& view) {
 
 std::unique_ptr<Registrar> make_registrar(const ScanPlanOptions& options, const ScanScene& scene) {
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
-  RegistrationOptions registration;
-  // Real frames are noisy: surfels of two voxels average that out. And a robot's poses are good: what the surfaces
-  // leave open stays as the robot says.
-  registration.search_radius = options.pose_error;
-  registration.orientation_error = radians(options.pose_angle_error) / 3;
-  registration.spacing = scene.scene.voxel_length;
-  registration.finest_cell_in_spacings = 2;
-  registration.trust = 0.01;
-  registration.largest_open_misfit = options.pose_error;
-  registration.largest_share_in_free_space = 0.2;
-  return std::make_unique<IcpRegistrar>(registration, scene.region);
+  // The largest errors that the user knows of are three standard deviations.
+  RegistrarOptions registrar;
+  registrar.error = std::make_shared<ConstantError>(PoseError::from_deviations(
+      Vec3::Constant(options.pose_error / 3), Vec3::Constant(radians(options.pose_angle_error) / 3)));
+  registrar.sensor = scene.sensor.given();
+  // In front of real sensors hands and cables move through the box, and things shine.
+  registrar.registration.outlier_share = 0.03;
+  registrar.region = scene.region;
+  // The box itself: the region less its surroundings, in which the robot may be seen to move.
+  const double longest = scene.region.sizes().maxCoeff() / (1 + 2 * options.surroundings);
+  const Vec3 around = Vec3::Constant(options.surroundings * longest);
+  registrar.registration.still = Box3(scene.region.min() + around, scene.region.max() - around);
+  return std::make_unique<IcpRegistrar>(registrar);
 }
 
 ScanModel::ScanModel(const ScanScene& scene)
@@ -58,12 +60,14 @@ const ScanRecord& ScanModel::add(const ScanOrigin& origin, const Scan& measured,
   if (record.merged) distances_.push_back((position - center_).norm());
   current_ = record.registered;
   current_.world_from_sensor.translation() = position;
+  if (origin.commanded) with_command_.insert(record.scan);
   if (learner) {
-    if (origin.commanded) {
-      (void)teach(*learner, record);
-    } else {
-      record.learned_error = learner->estimate();
+    std::vector<const ScanRecord*> lessons{&record};
+    for (const int number : record.recovered) lessons.push_back(&model_.scans[static_cast<std::size_t>(number)]);
+    for (const ScanRecord* lesson : lessons) {
+      if (with_command_.contains(lesson->scan)) (void)teach(*learner, *lesson);
     }
+    record.learned_error = learner->estimate();
   }
   model_.scans.push_back(std::move(record));
   return model_.scans.back();

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -33,6 +34,9 @@ class ScanModel {
   /// Takes out flying pixels, registers the scan, merges it where that succeeds, and notes it.
   const ScanRecord& add(const ScanOrigin& origin, const Scan& measured, const View& believed, Registrar& registrar);
 
+  /// When no scan follows for now: tries those once more that were refused. Returns the numbers of those that came in.
+  std::vector<int> conclude(Registrar& registrar) { return vantage::conclude(model_, registrar); }
+
   [[nodiscard]] const ObjectModel& model() const { return model_; }
   /// Median distance of the sensor from the middle of the scene at the scans that were merged, metres; 0 before the
   /// first. One with a wrong pose hardly moves it.
@@ -48,6 +52,7 @@ class ScanModel {
   std::vector<double> distances_;  // of the sensor from there, metres, at merged scans
   ScanCleaner cleaner_;
   View current_;
+  std::set<int> with_command_;  // numbers of scans of which it is known where the sensor was sent
 };
 
 /// Tells a planner from where scans were merged, as the loop of a run does after each of them: utilities with a memory

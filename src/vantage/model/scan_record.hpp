@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vantage/robot/pose_error.hpp"
 #include "vantage/search/search.hpp"
@@ -39,11 +40,19 @@ struct ScanRecord {
   double distance = 0;                           // metres travelled so far, without the way to the first view
   std::optional<double> coverage, coverage_all;  // known in simulation only
   std::optional<View> true_view;                 // known in simulation only
+  std::optional<double> pose_error;              // the same: how far its points are off the truth in the mean, metres
 
-  bool merged = true;   // false where registration failed: kept, but not in the map
-  double overlap = 1;   // share of the scan that lies on the model, as registration saw it
-  double residual = 0;  // metres
+  bool merged = true;  // false where registration failed: kept, but not in the map
+  /// The scan after which it came into the map: its own number, or that of a later one where it was refused at first.
+  std::optional<int> merged_after;
+  std::vector<int> recovered;  // earlier scans that came into the map after this one
+  double overlap = 1;          // share of the scan that lies on the model, as registration saw it
+  double residual = 0;         // metres
   std::string verdict;
+  std::string detail;  // a sentence about the verdict
+  /// Of the registered pose, as PoseEstimate has it; 0 where the pose was taken as it was.
+  PoseError::Matrix pose_covariance = PoseError::Matrix::Zero();
+  int undetermined_directions = 0;  // of the registered pose: there it stays as believed
   /// How the robot errs as far as it has been learned up to this scan; nothing where it is not learned.
   std::optional<PoseError> learned_error;
   ScanTimings timings;

@@ -32,6 +32,7 @@ struct ErrorOptions {
   int error_candidates = 12;
   int error_samples = 32;
   double least_overlap = 0.1;
+  double registrable = 0.5;
 
   /// Throws InputError naming the option. `center`: of the scene, around which a turntable turns.
   void validate_errors(const Vec3& center) const;
@@ -76,6 +77,9 @@ void describe(ErrorOptions& o, Field&& field) {
   field("error-samples", o.error_samples, "", "poses around each of them, an even number");
   field("least-overlap", o.least_overlap, "",
         "share of known surface in a view from which its scan counts as one that can be registered");
+  field("registrable", o.registrable, "",
+        "where scans are registered: probability, planned from the overlap's information, that a view's scan ends up "
+        "less than half a voxel off; views below come last; 0: do not plan for it");
 }
 
 }  // namespace vantage

@@ -142,6 +142,13 @@ PlannerOptions ReconstructOptions::planner_options() const {
     result.convolution.normalise = convolve == "normalised";
   }
   result.expectation = {error_candidates, error_samples, least_overlap};
+  if (registration == "icp" && registrable > 0) {
+    result.registrability.emplace();
+    result.registrability->error = believed_error_model(center);
+    result.registrability->sensor = sensor_model();
+    result.registrability->least_probability = registrable;
+    result.registrability->least_overlap = least_overlap;
+  }
   result.stop_occplane = stop_occplane;
   result.deadline = deadline;
   return result;

@@ -21,8 +21,10 @@ bool meets_occplane(const std::vector<Evaluation>& evaluations, int at_most) {
 /// Of how many views it is the best, and how many there was no time for.
 std::string rivals(const Plan& plan, double deadline) {
   const std::size_t seen = plan.ranking.size();
-  // Poses are sampled around the strongest views only.
-  if (plan.best.expected && seen < plan.feasible) return concat("best of the ", seen, " strongest of ", plan.feasible);
+  // Poses are sampled only around the strongest views, and only those are
+  // or asked whether their scans can be registered.
+  if ((plan.best.expected || plan.best.registrability) && seen < plan.feasible)
+    return concat("best of the ", seen, " strongest of ", plan.feasible);
   if (deadline == 0 || seen == plan.feasible) return concat("best of ", seen);
   return concat("best of the ", seen, " of ", plan.feasible, " views seen within ", deadline, " ms");
 }
@@ -33,11 +35,17 @@ std::string describe(const Expectation& expected, double utility) {
                 "probability ", std::round(100 * expected.registers), " % (", expected.samples, " poses)");
 }
 
+std::string describe(const Registrability& expected) {
+  return concat("; its scan is expected to be registered with probability ", std::round(100 * expected.probability),
+                " %, the surface then ", std::round(1e4 * expected.misplacement) / 10, " mm off");
+}
+
 std::string explain(const Evaluation& best, const std::string& rivals, double angle) {
   return concat(rivals, ": meets ", best.seen.occplane, " occplane voxels (", per_cent(best.factors.x_op),
                 " % of what it sees), overlaps with ", best.seen.occupied, " occupied ones (",
                 per_cent(best.factors.x_oc), " %), ", std::round(degrees(angle)), " degrees from here",
-                best.expected ? describe(*best.expected, best.utility) : "");
+                best.expected ? describe(*best.expected, best.utility) : "",
+                best.registrability ? describe(*best.registrability) : "");
 }
 
 }  // namespace
@@ -58,6 +66,7 @@ void PlannerOptions::validate() const {
   (void)utility_by_name(utility);
   convolution.validate();
   expectation.validate();
+  if (registrability) registrability->validate();
   if (!believed_error || error_method != ErrorMethod::convolution) return;
   require(search == SearchKind::exhaustive,
           "convolution after evaluation needs the utility of every view: use it with the exhaustive search, "
@@ -133,6 +142,9 @@ void Planner::expect_errors(Plan& plan, const ViewEvaluation& problem, const Vox
 
 void Planner::believe(const PoseError& error) {
   if (options_.believed_error) options_.believed_error = std::make_shared<ConstantError>(error);
+  if (options_.registrability && options_.registrability->error) {
+    options_.registrability->error = std::make_shared<ConstantError>(error);
+  }
 }
 
 std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& current) {
@@ -150,8 +162,9 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
     }
   }
   if (feasible.empty()) {
-    why_finished_ = concat("none of the ", candidates_.views.size(),
-                           " candidate views is feasible (the first: ", plan.infeasible.front().reason, ")");
+    why_finished_ =
+        concat("none of the ", candidates_.views.size(),
+               " candidate views is feasible (the first: ", plan.infeasible.front().reason, ")", what_is_set_aside());
     return std::nullopt;
   }
 
@@ -175,14 +188,40 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
   if (options_.believed_error) expect_errors(plan, problem, map);
+  if (options_.registrability && options_.registrability->error && options_.deadline == 0) {
+    std::optional<Plan> ranked = registrable(std::move(plan), problem);
+    if (!ranked) return std::nullopt;
+    plan = *std::move(ranked);
+  }
   return settled(std::move(plan), moves, problem);
+}
+
+std::optional<Plan> Planner::registrable(Plan plan, const ViewEvaluation& problem) {
+  RegistrableViews views =
+      rank_by_registrability(problem, std::move(plan.ranking), *options_.registrability, options_.stop_occplane);
+  if (views.ranking.empty()) {
+    why_finished_ =
+        concat("no view that meets an occplane voxel has a fair chance that its scan can be registered (at best ",
+               per_cent(views.best_probability), " %, ", per_cent(options_.registrability->fair_chance),
+               " % are asked for)", what_is_set_aside());
+    return std::nullopt;
+  }
+  plan.ranking = std::move(views.ranking);
+  return plan;
 }
 
 std::optional<Plan> Planner::finished() {
   why_finished_ = options_.stop_occplane == 0
                       ? "no feasible view meets an occplane voxel any more"
                       : concat("no feasible view meets more than ", options_.stop_occplane, " occplane voxels");
+  why_finished_ += what_is_set_aside();
   return std::nullopt;
+}
+
+std::string Planner::what_is_set_aside() const {
+  if (set_aside_.empty()) return {};
+  return concat("; left out are ", set_aside_.size(), set_aside_.size() == 1 ? " view" : " views",
+                " whose scans could not be registered since the map changed last");
 }
 
 std::optional<Plan> Planner::settled(Plan plan, const Moves& moves, const ViewEvaluation& problem) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/planning/registrability.hpp"
 #include "vantage/robot/reach.hpp"
 #include "vantage/robot/robot_model.hpp"
 #include "vantage/search/expected_utility.hpp"
@@ -43,6 +44,9 @@ struct PlannerOptions {
   ErrorMethod error_method = ErrorMethod::convolution;
   ConvolutionOptions convolution;
   ExpectationOptions expectation;
+  /// Where scans have to be registered: views are ranked by utility times the probability of that. With a deadline
+  /// there is no time for it.
+  std::optional<RegistrabilityOptions> registrability;
   int stop_occplane = 0;  // stop when no feasible view sees more occplane voxels than this
   /// Milliseconds after which a plan is made of the views evaluated until then (search_until); 0: evaluate all. Needs
   /// the exhaustive search without the robot's error. What is planned then depends on the clock.
@@ -94,7 +98,8 @@ class Planner {
   /// This candidate's scan could not be used: it is not planned again until the map changes.
   void set_aside(int candidate, const std::string& reason);
   void map_changed() { set_aside_.clear(); }
-  /// From now on the robot is believed to err like this. Nothing changes where errors are not planned for.
+  /// From now on the robot is believed to err like this. Nothing changes where errors are not planned for: neither by
+  /// what they leave of the utility nor by whether scans can be registered.
   void believe(const PoseError& error);
   /// A scan from this view was merged. `candidate` is -1 where it is none of the candidates.
   void scanned(const View& view, int candidate);
@@ -114,6 +119,10 @@ class Planner {
   /// Where the robot is that has its sensor at `current`.
   [[nodiscard]] RobotState state_behind(const View& current) const;
   [[nodiscard]] std::optional<Plan> finished();
+  /// For why_finished(): which views were left out because their scans failed; empty where there are none.
+  [[nodiscard]] std::string what_is_set_aside() const;
+  /// Ranks by the probability of being registered too; nothing where no view with a fair chance is left.
+  [[nodiscard]] std::optional<Plan> registrable(Plan plan, const ViewEvaluation& problem);
   /// Settles on the best view of the ranking that the robot gets to.
   [[nodiscard]] std::optional<Plan> settled(Plan plan, const class Moves& moves, const ViewEvaluation& problem);
   void expect_errors(Plan& plan, const ViewEvaluation& problem, const VoxelMap& map) const;

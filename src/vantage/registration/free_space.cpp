@@ -20,9 +20,9 @@ void least_around(std::vector<float>& values, std::size_t first, std::size_t str
 }
 
 /// The median measured depth; infinity where nothing was measured.
-double middle_depth(const RangeImage& image) {
+double middle_depth(const std::vector<float>& depth) {
   std::vector<float> depths;
-  std::copy_if(image.depth.begin(), image.depth.end(), std::back_inserter(depths), RangeImage::is_hit);
+  std::copy_if(depth.begin(), depth.end(), std::back_inserter(depths), RangeImage::is_hit);
   if (depths.empty()) return static_cast<double>(RangeImage::no_return);
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
@@ -31,45 +31,64 @@ double middle_depth(const RangeImage& image) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const RangeImage& image, double margin)
-    : rays_(image.camera.rays()),
-      min_depth_(image.camera.min_depth),
-      max_depth_(image.camera.max_depth),
-      margin_(margin),
-      nearest_(image.depth) {
-  require(margin > 0, "free space: margin = ", margin, " m: must be positive");
+FreeSpace::FreeSpace(const RangeImage& image, const SensorModel& sensor, double blur)
+    : min_depth_(image.camera.min_depth), max_depth_(image.camera.max_depth), sensor_(sensor), blur_(blur) {
+  require(blur >= 0, "free space: blur = ", blur, " m: must not be negative");
   const auto [columns, rows] = image.camera.resolution;
-  const double depth = middle_depth(image);
-  const auto radius = [&](double half, int count) {
-    return static_cast<int>(std::min<double>(count, std::ceil(margin * count / (2 * half * depth))));
-  };
-  const auto width = static_cast<std::size_t>(columns);
+  constexpr int most = 160;
+  const int block = (std::max(columns, rows) + most - 1) / most;
+  // The camera of whole blocks: the last ones may reach beyond the image, where nothing is known.
+  const Resolution reduced{(columns + block - 1) / block, (rows + block - 1) / block};
+  rays_ = image.camera.rays();
+  const double x_left = rays_.x_middle - rays_.x_half, y_top = rays_.y_middle - rays_.y_half;
+  rays_.x_half *= static_cast<double>(reduced.columns * block) / columns;
+  rays_.y_half *= static_cast<double>(reduced.rows * block) / rows;
+  rays_.x_middle = x_left + rays_.x_half;
+  rays_.y_middle = y_top + rays_.y_half;
+  rays_.resolution = reduced;
+  const auto size = static_cast<std::size_t>(reduced.rays());
+  nearest_.assign(size, RangeImage::no_return);
+  farthest_.assign(size, 0);
   for (int row = 0; row < rows; ++row) {
-    least_around(nearest_, static_cast<std::size_t>(row) * width, 1, columns, radius(rays_.x_half, columns));
+    for (int column = 0; column < columns; ++column) {
+      const auto i = static_cast<std::size_t>(row / block) * static_cast<std::size_t>(reduced.columns) +
+                     static_cast<std::size_t>(column / block);
+      const float depth = image.at(column, row);
+      nearest_[i] = std::min(nearest_[i], depth);
+      if (RangeImage::is_hit(depth)) farthest_[i] = std::max(farthest_[i], depth);
+    }
   }
-  for (int column = 0; column < columns; ++column) {
-    least_around(nearest_, static_cast<std::size_t>(column), width, rows, radius(rays_.y_half, rows));
+  for (int row = 0; row < reduced.rows && columns % block != 0; ++row)
+    nearest_[static_cast<std::size_t>((row + 1) * reduced.columns - 1)] = RangeImage::unknown;
+  for (int column = 0; column < reduced.columns && rows % block != 0; ++column)
+    nearest_[size - 1 - static_cast<std::size_t>(column)] = RangeImage::unknown;
+  const double depth = middle_depth(image.depth);
+  const auto radius = [&](double half, int count) {
+    return static_cast<int>(std::clamp<double>(std::ceil(blur * count / (2 * half * depth)), 1, count));
+  };
+  const auto width = static_cast<std::size_t>(reduced.columns);
+  for (int row = 0; row < reduced.rows; ++row) {
+    least_around(nearest_, static_cast<std::size_t>(row) * width, 1, reduced.columns,
+                 radius(rays_.x_half, reduced.columns));
+  }
+  for (int column = 0; column < reduced.columns; ++column) {
+    least_around(nearest_, static_cast<std::size_t>(column), width, reduced.rows, radius(rays_.y_half, reduced.rows));
   }
 }
 
-bool FreeSpace::contains(const Vec3& point_in_sensor) const {
+FreeSpace::Answer FreeSpace::at(const Vec3& point_in_sensor) const {
   const double depth = point_in_sensor.z();
-  if (depth <= min_depth_ || depth >= max_depth_) return false;
+  if (depth <= min_depth_ || depth >= max_depth_) return Answer::unknown;
   const auto [columns, rows] = rays_.resolution;
   const double column = (((point_in_sensor.x() / depth - rays_.x_middle) / rays_.x_half + 1) * columns - 1) / 2;
   const double row = (((point_in_sensor.y() / depth - rays_.y_middle) / rays_.y_half + 1) * rows - 1) / 2;
-  if (!(column > -0.5 && column < columns - 0.5 && row > -0.5 && row < rows - 0.5)) return false;
+  if (!(column > -0.5 && column < columns - 0.5 && row > -0.5 && row < rows - 0.5)) return Answer::unknown;
   const auto pixel = static_cast<std::size_t>(std::lround(row)) * static_cast<std::size_t>(columns) +
                      static_cast<std::size_t>(std::lround(column));
-  return depth + margin_ < static_cast<double>(nearest_[pixel]);
-}
-
-double FreeSpace::share_inside(std::span<const Vec3> points, const Pose& world_from_sensor) const {
-  if (points.empty()) return 0;
-  const Pose sensor_from_world = world_from_sensor.inverse();
-  const auto inside = std::count_if(points.begin(), points.end(),
-                                    [&](const Vec3& point) { return contains(sensor_from_world * point); });
-  return static_cast<double>(inside) / static_cast<double>(points.size());
+  const double margin = std::max(5 * sensor_.sigma(depth), blur_);
+  if (depth + margin < static_cast<double>(nearest_[pixel])) return Answer::free;
+  if (farthest_[pixel] > 0 && depth < static_cast<double>(farthest_[pixel]) + margin) return Answer::surface;
+  return Answer::unknown;
 }
 
 }  // namespace vantage

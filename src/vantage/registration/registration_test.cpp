@@ -7,6 +7,7 @@
 #include "support/analytic_scan.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/random.hpp"
+#include "vantage/registration/pose_fit.hpp"
 #include "vantage/sensor/scan_cloud.hpp"
 
 namespace vantage {
@@ -17,15 +18,10 @@ using testing::HasSubstr;
 
 RangeCamera small_camera() { return camera_from_apertures(radians(34), radians(34), {128, 128}); }
 
-struct Scan {
-  RangeImage image;
-  PointCloud cloud;
-};
+constexpr SensorModel exact;
 
-Scan scan(const Solid& solid, const View& view) {
-  RangeImage image = test::scan_solid(solid, small_camera(), view);
-  PointCloud cloud = scan_cloud(image, range_image_normals(image));
-  return {std::move(image), std::move(cloud)};
+ScanSurface scan(const Solid& solid, const View& view) {
+  return scan_surface(test::scan_solid(solid, small_camera(), view), exact);
 }
 
 /// A believed pose: the true one with its position off by a vector and its orientation turned.
@@ -36,19 +32,15 @@ Pose disturbed(const Pose& truth, const Vec3& shift, double angle, const Vec3& a
   return pose;
 }
 
-constexpr double spacing = 0.0095;  // of such a scan from 2 m
-
-ModelSurface model_of(const Solid& solid, const View& view) {
-  ModelSurface model(spacing);
-  Scan first = scan(solid, view);
-  model.merge(first.cloud, std::move(first.image), view.world_from_sensor);
+RegisteredSurface model_of(const Solid& solid, const View& view) {
+  RegisteredSurface model;
+  model.merge(scan(solid, view), view.world_from_sensor);
   return model;
 }
 
-Registration registered(const ModelSurface& model, const Scan& scan, const Pose& believed) {
-  RegistrationOptions options;
-  options.orientation_error = radians(2);  // the largest standard deviation of the tests
-  return register_scan(model, scan.cloud, scan.image, believed, options);
+/// With the errors of these tests: 5 cm and 2 degrees.
+Registration registered(const RegisteredSurface& model, const ScanSurface& scan, const Pose& believed) {
+  return register_scan(model, scan, PoseEstimate::around(believed, 0.05, radians(2)));
 }
 
 /// How far a registration's pose is off, at the object's centre (the world's origin) and as an angle.
@@ -69,7 +61,7 @@ std::vector<PoseError> accepted_errors(const Solid& solid, int trials) {
   std::vector<PoseError> accepted;
   for (int trial = 0; trial < trials; ++trial) {
     const Vec3 from = random.unit_vector();
-    const ModelSurface model = model_of(solid, view_towards(2 * from, Vec3::Zero()));
+    const RegisteredSurface model = model_of(solid, view_towards(2 * from, Vec3::Zero()));
     const View view = view_towards(2 * (Eigen::AngleAxisd(radians(35), from.unitOrthogonal()) * from), Vec3::Zero());
     const Pose believed =
         disturbed(view.world_from_sensor, 0.05 * random.normal3(), radians(2) * random.normal(), random.unit_vector());
@@ -99,40 +91,23 @@ TEST(Registration, RefusesWhatFewFacesLeaveOpen) {
   }
 }
 
-TEST(ModelSurface, KeepsEverySecondImageOnceThereAreMany) {
-  ModelSurface model(0.1);
-  const RangeImage image{camera_from_apertures(radians(45), radians(45), {2, 2}), std::vector<float>(4)};
-  const auto firsts = [&] {
-    std::vector<double> all;
-    for (const PosedImage& each : model.images()) all.push_back(each.world_from_sensor.translation().x());
-    return all;
-  };
-  for (int i = 0; i < 64; ++i) model.merge({}, image, Pose(Eigen::Translation3d(i, 0, 0)));
-  EXPECT_EQ(firsts().size(), 64U);
-  for (int i = 64; i < 1000; ++i) model.merge({}, image, Pose(Eigen::Translation3d(i, 0, 0)));
-  ASSERT_EQ(firsts().size(), 63U) << "of 0 to 999 every 16th";
-  for (std::size_t i = 0; i < 63; ++i) EXPECT_EQ(firsts()[i], static_cast<double>(16 * i));
-}
-
-TEST(Registration, RefusesAPoseThatFitsButStandsInFreeSpace) {
+TEST(Registration, FreeSpaceSaysWhereABarEnds) {
   // A long bar slid along itself fits; only the empty space beyond its end speaks against it.
   const Solid bar = test::box(Vec3::Zero(), Vec3(0.9, 0.15, 0.15));
   const View view = view_towards({0, -1.6, 1.2}, Vec3::Zero());
-  const ModelSurface model = model_of(bar, view);
-  const Scan again = scan(bar, view);
+  const RegisteredSurface model = model_of(bar, view);
+  const ScanSurface again = scan(bar, view);
+  // The robot is known to err by a millimetre: the pose stays, and is refused.
   const Pose slid = disturbed(view.world_from_sensor, {0.1, 0, 0}, 0, Vec3::UnitX());
-  const FreeSpace seen(again.image, 0.02);
-  EXPECT_EQ(seen.share_inside(model.cloud().points, view.world_from_sensor), 0);
-  EXPECT_NEAR(seen.share_inside(model.cloud().points, slid), (0.1 - 0.02) / 0.9, 0.02);
-  const Registration found = register_scan(model, again.cloud, again.image, slid);
-  EXPECT_EQ(found.verdict, Verdict::in_free_space) << found.explanation;
+  const Registration found = register_scan(model, again, PoseEstimate::around(slid, 0.001, radians(0.01)));
+  EXPECT_FALSE(found.succeeded()) << found.explanation;
 }
 
 TEST(Registration, GivesTheSameBitsForAnyNumberOfThreads) {
   const Solid solid = test::knobbly(0.8);
-  const ModelSurface model = model_of(solid, view_towards({2, 0, 1}, Vec3::Zero()));
+  const RegisteredSurface model = model_of(solid, view_towards({2, 0, 1}, Vec3::Zero()));
   const View view = view_towards({1.6, 1, 1}, Vec3::Zero());
-  const Scan next = scan(solid, view);
+  const ScanSurface next = scan(solid, view);
   const Pose believed = disturbed(view.world_from_sensor, {0.04, -0.03, 0.05}, radians(2), Vec3::UnitX());
   std::vector<Registration> results;
   for (const std::size_t threads : {1, 2, 8}) {
@@ -144,8 +119,17 @@ TEST(Registration, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(result.world_from_sensor.matrix(), results[0].world_from_sensor.matrix());
     EXPECT_EQ(result.overlap, results[0].overlap);
     EXPECT_EQ(result.residual, results[0].residual);
+    EXPECT_EQ(result.covariance, results[0].covariance);
     EXPECT_EQ(result.explanation, results[0].explanation);
   }
+}
+
+/// Squared distance of the true pose from what was found, in its standard deviations.
+double chi_squared(const Registration& found, const View& truth) {
+  const WhitenedPrior posterior(found.estimate());
+  const Eigen::MatrixXd root = posterior.root();
+  const Vec6 step = pose_step(found.world_from_sensor, truth.world_from_sensor);
+  return (root.completeOrthogonalDecomposition().pseudoInverse() * step).squaredNorm();
 }
 
 TEST(Registration, PlaneMovesOnlyAlongItsNormalAndTilts) {
@@ -156,20 +140,19 @@ TEST(Registration, PlaneMovesOnlyAlongItsNormalAndTilts) {
   const Registration found = registered(model_of(solid, first), scan(solid, second), believed);
   ASSERT_TRUE(found.succeeded()) << found.explanation;
   EXPECT_EQ(found.undetermined_directions, 3);
+  EXPECT_THAT(found.explanation, HasSubstr("3 directions are not determined by the shape and stay as believed"));
   // What the plane fixes is right ...
   const Pose error = found.world_from_sensor * second.world_from_sensor.inverse();
   EXPECT_NEAR((error * Vec3::Zero()).z(), 0, 1e-4);
   EXPECT_NEAR((error.linear() * Vec3::UnitZ()).z(), 1, 1e-7);
-  // ... and what it leaves open stays as believed: the scan's middle moves only in z and does not turn about z.
-  const Pose motion = found.world_from_sensor * believed.inverse();
-  const Vec3 middle = believed * Vec3(0, 0, 2.04);
-  const Vec3 moved = motion * middle - middle;
-  EXPECT_LT(moved.head<2>().norm(), 2e-3);
-  const Eigen::AngleAxisd turn(Mat3(motion.linear()));
-  EXPECT_LT(std::abs(turn.angle() * turn.axis().z()), radians(0.05));
+  // ... and what it leaves open is known to be as uncertain as it was.
+  EXPECT_LT(chi_squared(found, second), chi_squared_limit(6));
+  EXPECT_NEAR(std::sqrt(found.covariance(0, 0)), 0.05, 0.01);
+  EXPECT_NEAR(std::sqrt(found.covariance(5, 5)), radians(2), radians(0.2));
+  EXPECT_LT(found.misplacement, 0.001);
 }
 
-TEST(Registration, SphereKeepsItsBelievedOrientation) {
+TEST(Registration, SphereKeepsWhatIsBelievedOfItsOrientation) {
   const Solid solid = test::sphere(Vec3::Zero(), 0.4);
   const View first = view_towards({2, 0, 0}, Vec3::Zero());
   const View second = view_towards({1.7, 1, 0}, Vec3::Zero());
@@ -177,7 +160,22 @@ TEST(Registration, SphereKeepsItsBelievedOrientation) {
   const Registration found = registered(model_of(solid, first), scan(solid, second), believed);
   ASSERT_TRUE(found.succeeded()) << found.explanation;
   EXPECT_EQ(found.undetermined_directions, 3);
-  EXPECT_LT(rotation_angle(found.world_from_sensor.linear(), believed.linear()), radians(0.02));
+  // The sphere is where it is; where on the circle around it the sensor is, is not known.
+  const Pose error = found.world_from_sensor * second.world_from_sensor.inverse();
+  EXPECT_LT((error * Vec3::Zero()).norm(), 1e-3);
+  EXPECT_LT(chi_squared(found, second), chi_squared_limit(6));
+  EXPECT_LT(found.misplacement, 0.001);
+}
+
+TEST(Registration, ARobotThatKeepsItsOrientationKeepsItOnASphere) {
+  const Solid solid = test::sphere(Vec3::Zero(), 0.4);
+  const View second = view_towards({1.7, 1, 0}, Vec3::Zero());
+  const Pose believed = disturbed(second.world_from_sensor, {0.03, -0.05, 0.04}, 0, Vec3::UnitX());
+  const Registration found = register_scan(model_of(solid, view_towards({2, 0, 0}, Vec3::Zero())), scan(solid, second),
+                                           PoseEstimate::around(believed, 0.05, 0));
+  ASSERT_TRUE(found.succeeded()) << found.explanation;
+  EXPECT_EQ(found.undetermined_directions, 0);
+  EXPECT_EQ(found.world_from_sensor.linear(), believed.linear());
   EXPECT_LT(pose_error(found, second).shift, 1e-3);
 }
 
@@ -189,13 +187,35 @@ TEST(Registration, CylinderStaysAlongAndAboutItsAxis) {
   const Registration found = registered(model_of(solid, first), scan(solid, second), believed);
   ASSERT_TRUE(found.succeeded()) << found.explanation;
   EXPECT_EQ(found.undetermined_directions, 2);
-  EXPECT_NEAR(found.world_from_sensor.translation().z(), believed.translation().z(), 2e-3);
-  EXPECT_LT((found.world_from_sensor.translation() - second.position()).head<2>().norm(), 5e-3);
+  const Pose error = found.world_from_sensor * second.world_from_sensor.inverse();
+  for (const double z : {-0.3, 0.3}) EXPECT_LT((error * Vec3(0, 0, z)).head<2>().norm(), 1e-3);
+  EXPECT_LT(chi_squared(found, second), chi_squared_limit(6));
+}
+
+TEST(Registration, TwoScansFindEachOther) {
+  const Solid solid = test::knobbly(0.8);
+  const View one = view_towards({2, 0, 1}, Vec3::Zero()), other = view_towards({1.6, 1, 1}, Vec3::Zero());
+  const Pose truth = one.world_from_sensor.inverse() * other.world_from_sensor;
+  const Pose believed = disturbed(truth, {0.04, -0.03, 0.05}, radians(2), Vec3::UnitX());
+  const Registration found =
+      register_pair(scan(solid, one), scan(solid, other), PoseEstimate::around(believed, 0.05, radians(2)));
+  ASSERT_TRUE(found.succeeded()) << found.explanation;
+  EXPECT_LT((found.world_from_sensor.translation() - truth.translation()).norm(), 0.005);
+  EXPECT_LT(rotation_angle(found.world_from_sensor.linear(), truth.linear()), radians(0.2));
+}
+
+TEST(Registration, NothingIsMergedBeyondThePrior) {
+  const Solid solid = test::knobbly(0.8);
+  const View view = view_towards({1.6, 1, 1}, Vec3::Zero());
+  const RegisteredSurface model = model_of(solid, view_towards({2, 0, 1}, Vec3::Zero()));
+  const Pose believed = disturbed(view.world_from_sensor, {0.03, 0, 0}, 0, Vec3::UnitX());
+  const Registration found = register_scan(model, scan(solid, view), PoseEstimate::around(believed, 0.003, 0.001));
+  EXPECT_FALSE(found.succeeded()) << found.explanation;
 }
 
 TEST(Registration, RefusesAScanWithoutOverlap) {
   const Solid solid = test::l_shape(0.8);
-  const ModelSurface model = model_of(solid, view_towards({0, 0, 2}, Vec3::Zero()));
+  const RegisteredSurface model = model_of(solid, view_towards({0, 0, 2}, Vec3::Zero()));
   const View below = view_towards({0.1, 0.1, -2}, Vec3::Zero());
   const Registration found = registered(model, scan(solid, below), below.world_from_sensor);
   EXPECT_EQ(found.verdict, Verdict::insufficient_overlap);
@@ -203,23 +223,22 @@ TEST(Registration, RefusesAScanWithoutOverlap) {
 }
 
 TEST(Registration, TellsOfEmptyScans) {
-  const ModelSurface model = model_of(test::l_shape(0.8), view_towards({0, 0, 2}, Vec3::Zero()));
+  const RegisteredSurface model = model_of(test::l_shape(0.8), view_towards({0, 0, 2}, Vec3::Zero()));
   const Pose believed = look_at({0, 1, 2}, Vec3::Zero());
-  const Registration found = register_scan(model, PointCloud{}, believed);
+  const Registration found = registered(model, ScanSurface{}, believed);
   EXPECT_EQ(found.verdict, Verdict::insufficient_overlap);
   EXPECT_EQ(found.world_from_sensor.matrix(), believed.matrix());
-  EXPECT_THAT(found.explanation, HasSubstr("the scan has 0 points"));
+  EXPECT_THAT(found.explanation, HasSubstr("the scan has 0 samples"));
 }
 
 TEST(Registration, OptionsNameTheFieldAndTheValue) {
-  const ModelSurface model(0.01);
   try {
     RegistrationOptions options;
-    options.least_overlap = 1.5;
-    (void)register_scan(model, {}, Pose::Identity(), options);
-    FAIL() << "accepted least_overlap = 1.5";
+    options.outlier_share = 1.5;
+    (void)register_scan({}, {}, {}, options);
+    FAIL() << "accepted outlier_share = 1.5";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "least_overlap = 1.5: must be in (0, 1]");
+    EXPECT_STREQ(error.what(), "outlier_share = 1.5: must be in [0, 1)");
   }
 }
 

@@ -28,7 +28,9 @@ nlohmann::ordered_json view_json(const Evaluation& e) {
           {"utility", e.utility},
           {"score", e.score},
           {"expected_utility", e.expected ? Json(e.expected->utility) : Json(nullptr)},
-          {"overlap_probability", e.expected ? Json(e.expected->registers) : Json(nullptr)}};
+          {"overlap_probability", e.expected ? Json(e.expected->registers) : Json(nullptr)},
+          {"register_probability", e.registrability ? Json(e.registrability->probability) : Json(nullptr)},
+          {"expected_misplacement", e.registrability ? Json(e.registrability->misplacement) : Json(nullptr)}};
 }
 
 nlohmann::ordered_json move_json(const Move& move) {

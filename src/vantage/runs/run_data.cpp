@@ -18,6 +18,27 @@ bool same_surface(const SurfaceVoxel& a, const SurfaceVoxel& b) {
   return a.normal_sum == b.normal_sum && a.quality == b.quality;
 }
 
+/// A change and the one after it as one.
+void add_change(MapChange& change, const MapChange& next) {
+  for (std::size_t i = 0; i < next.labels.size(); ++i) {
+    if (next.labels[i] != 0) change.labels[i] = next.labels[i];
+  }
+  MapChange both{std::move(change.labels), {}, {}, {}};
+  const auto take = [&both](const MapChange& from, std::size_t at) {
+    both.voxels.push_back(from.voxels[at]);
+    for (std::size_t axis = 0; axis < 3; ++axis) both.normals.push_back(from.normals[3 * at + axis]);
+    both.quality.push_back(from.quality[at]);
+  };
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < next.voxels.size(); ++i) {
+    for (; old < change.voxels.size() && change.voxels[old] < next.voxels[i]; ++old) take(change, old);
+    if (old < change.voxels.size() && change.voxels[old] == next.voxels[i]) ++old;
+    take(next, i);
+  }
+  for (; old < change.voxels.size(); ++old) take(change, old);
+  change = std::move(both);
+}
+
 }  // namespace
 
 MapChange MapRecorder::changes(const VoxelMap& map) {
@@ -75,7 +96,6 @@ void RunData::add_scan(const ScanRecord& record, const ObjectModel& model, const
   RecordedScan scan{record, std::nullopt, recorder_.changes(model.map)};
   if (plan != nullptr) scan.plan = candidate_plan(*plan, candidates.views.size());
   scans.push_back(std::move(scan));
-  cloud_sizes_.push_back(model.surface.cloud().size());
 }
 
 void RunData::finish(const ObjectModel& model, const std::string& reason) {
@@ -86,11 +106,12 @@ void RunData::finish(const ObjectModel& model, const std::string& reason) {
   scan_of_point.resize(cloud.size());
   constexpr std::size_t last_number = std::numeric_limits<std::uint16_t>::max();
   std::size_t first = 0;
-  for (std::size_t scan = 0; scan < cloud_sizes_.size(); ++scan) {
-    for (; first < std::min(cloud_sizes_[scan], cloud.size()); ++first) {
-      scan_of_point[first] = static_cast<std::uint16_t>(std::min(scan, last_number));
-    }
+  for (const auto& [scan, size] : model.cloud_growth) {
+    const auto number = static_cast<std::uint16_t>(std::min(static_cast<std::size_t>(scan), last_number));
+    for (; first < std::min(size, cloud.size()); ++first) scan_of_point[first] = number;
   }
+  for (std::size_t i = 0; i < std::min(scans.size(), model.scans.size()); ++i) scans[i].record = model.scans[i];
+  if (!scans.empty()) add_change(scans.back().change, recorder_.changes(model.map));
 }
 
 }  // namespace vantage

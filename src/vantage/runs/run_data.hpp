@@ -79,12 +79,12 @@ struct RunData {
 
   /// Adds a scan; `model` as it is after it, `plan` that chose it or nullptr.
   void add_scan(const ScanRecord& record, const ObjectModel& model, const Plan* plan);
-  /// Takes the fused cloud of the finished model and notes why the run ended.
+  /// Takes the fused cloud and the records of the finished model, what changed since the last scan, and notes why the
+  /// run ended.
   void finish(const ObjectModel& model, const std::string& reason);
 
  private:
   MapRecorder recorder_;
-  std::vector<std::size_t> cloud_sizes_;  // after each scan; a point keeps its place when a better one replaces it
 };
 
 /// The data of a simulated reconstruction before its first scan: scene, camera, candidates and the options that matter,

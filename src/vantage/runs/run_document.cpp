@@ -153,7 +153,6 @@ Json scan_json(const RecordedScan& scan) {
   const ScanRecord& r = scan.record;
   Json json = scan_json(r);
   if (!r.merged) json["registered"] = nullptr;
-  if (r.true_view) json["true_pose"] = pose_numbers(r.true_view->world_from_sensor);
   json["plan"] = scan.plan ? plan_json(*scan.plan) : Json(nullptr);
   json["labels"] = packed_array<std::uint8_t>(scan.change.labels);
   json["surface"] = {{"voxels", packed_array<std::uint32_t>(scan.change.voxels, 1, PackedRows::differences)},

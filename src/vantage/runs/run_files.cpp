@@ -104,6 +104,15 @@ Json scan_json(const ScanRecord& record) {
   json["learned_sigma"] = learned(0, 1);
   json["learned_angle"] = learned(3, radians(1));
   json["merged"] = record.merged;
+  json["merged_after"] = or_null(record.merged_after);
+  json["true_pose"] = record.true_view ? Json(pose_numbers(record.true_view->world_from_sensor)) : Json(nullptr);
+  json["pose_error"] = or_null(record.pose_error);
+  const auto foreseen = [&record](const auto& value) {
+    return record.planned && record.planned->registrability ? Json(value(*record.planned->registrability))
+                                                            : Json(nullptr);
+  };
+  json["register_probability"] = foreseen([](const Registrability& r) { return r.probability; });
+  json["expected_misplacement"] = foreseen([](const Registrability& r) { return r.misplacement; });
   json["flying_pixels"] = record.flying;
   json["taken_back"] = record.taken_back;
   return json;
@@ -148,7 +157,9 @@ std::string views_csv(const std::vector<ScanRecord>& scans) {
   constexpr std::array<const char*, 7> parts{"x", "y", "z", "qx", "qy", "qz", "qw"};
   std::string header;
   std::string rows;
-  const Json names = scan_json(ScanRecord());
+  ScanRecord with_all_poses;
+  with_all_poses.true_view.emplace();
+  const Json names = scan_json(with_all_poses);
   for (const auto& [key, value] : names.items()) {
     if (!header.empty()) header += ',';
     if (!value.is_array()) {
@@ -161,11 +172,12 @@ std::string views_csv(const std::vector<ScanRecord>& scans) {
     std::string row;
     const Json values = scan_json(record);
     for (const auto& [key, value] : values.items()) {
-      if (!value.is_array()) {
+      if (!names[key].is_array()) {
         row += fmt::format("{}{}", row.empty() ? "" : ",", csv_field(value));
         continue;
       }
-      for (const Json& number : value) row += fmt::format(",{}", csv_field(number));
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        row += fmt::format(",{}", csv_field(value.is_null() ? Json(nullptr) : value[i]));
     }
     rows += row + '\n';
   }

@@ -48,7 +48,8 @@ TEST(RunFiles, RowsOfViewsHaveTheColumnsOfTheirHeader) {
       "registered_z,registered_qx,registered_qy,registered_qz,registered_qw,n_oc,n_op,n_um,f_area,f_navigation,"
       "f_quality,f_occlusion,utility,occupied,occplane,unmarked,new_occupied,mean_quality,distance,coverage,"
       "coverage_all,overlap,residual,verdict,reason,expected_utility,overlap_probability,learned_sigma,learned_angle,"
-      "merged,flying_pixels,taken_back");
+      "merged,merged_after,true_pose_x,true_pose_y,true_pose_z,true_pose_qx,true_pose_qy,true_pose_qz,true_pose_qw,"
+      "pose_error,register_probability,expected_misplacement,flying_pixels,taken_back");
   EXPECT_EQ(fields(first), fields(header));
   EXPECT_EQ(fields(second), fields(header));
   EXPECT_NE(second.find("\"because of \"\"this\"\", and that\""), std::string::npos);
@@ -84,6 +85,24 @@ TEST(RunFiles, TellWhatWasExpectedAndLearnedInMetresAndDegrees) {
   EXPECT_NEAR(learned.at("mean").at(3).get<double>(), 2, 1e-12);
   EXPECT_NEAR(learned.at("covariance").at(2).at(2).get<double>(), 0.04, 1e-12);
   EXPECT_NEAR(learned.at("covariance").at(5).at(5).get<double>(), 9, 1e-12);
+}
+
+TEST(RunFiles, WriteTheTruthWhereItIsKnown) {
+  ScanRecord scan = record(1);
+  EXPECT_TRUE(scan_json(scan).at("true_pose").is_null());
+  EXPECT_TRUE(scan_json(scan).at("pose_error").is_null());
+  EXPECT_TRUE(scan_json(scan).at("merged").get<bool>());
+  scan.true_view = view_towards(Vec3(0.1, 0.2, 2.1), Vec3::Zero());
+  scan.pose_error = 0.015;
+  scan.merged = false;
+  const auto json = scan_json(scan);
+  EXPECT_EQ(json.at("true_pose").at(2).get<double>(), 2.1);
+  EXPECT_EQ(json.at("pose_error").get<double>(), 0.015);
+  EXPECT_FALSE(json.at("merged").get<bool>());
+  EXPECT_TRUE(json.at("merged_after").is_null());
+  scan.merged_after = 4;
+  EXPECT_EQ(scan_json(scan).at("merged_after").get<int>(), 4);
+  EXPECT_NE(views_csv({scan}).find(",false,4,0.1,0.2,2.1,"), std::string::npos);
 }
 
 TEST(RunFiles, PosesAreWrittenAsQuaternions) {

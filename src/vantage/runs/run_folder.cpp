@@ -58,6 +58,14 @@ void write_frame(const std::filesystem::path& folder, const ScanRecord& record, 
                                     image.camera.max_depth));
 }
 
+/// The poses of the frames as they are known in the end.
+void write_poses(const std::filesystem::path& folder, const std::vector<ScanRecord>& scans) {
+  for (const ScanRecord& scan : scans) {
+    const std::filesystem::path file = folder / fmt::format("scan-{:03}.pose.txt", scan.scan);
+    if (std::filesystem::exists(file)) write_pose(file, scan.registered.world_from_sensor);
+  }
+}
+
 }  // namespace
 
 std::string scan_file_name(int scan) { return fmt::format("scan-{:03}", scan); }
@@ -114,6 +122,14 @@ void RunFolder::add_to_surface(const ScanRecord& record, const Scan& scan, const
   surface_->fuse(scan, record.registered, description_.sensor, record.residual);
 }
 
+void RunFolder::make_surface_again(const ObjectModel& model) {
+  if (!description_.surface || model.kept.empty()) return;
+  surface_.reset();
+  for (const auto& [number, size] : model.cloud_growth) {
+    add_to_surface(model.scans[static_cast<std::size_t>(number)], model.kept.at(number).scan(), model.map);
+  }
+}
+
 std::optional<MeshQuality> RunFolder::write_surface(const VoxelMap& map) {
   if (!surface_) return std::nullopt;
   const MeasuredMesh mesh = surface_->mesh(map);
@@ -129,8 +145,10 @@ void RunFolder::finish(const ObjectModel& model, const RunSummary& summary, cons
   write_cloud_ply(path() / "model.ply", object_cloud(model));
   write_file_atomically(path() / "config.yaml", description_.config);
   write_file_atomically(path() / "views.csv", views_csv(model.scans));
+  write_poses(path() / "scans", model.scans);
   write_file_atomically(path() / "timings.json", timings_json(model.scans, total_seconds).dump(2) + "\n");
   RunSummary whole = summary;
+  make_surface_again(model);
   whole.mesh = write_surface(model.map);
   write_file_atomically(path() / "summary.json", summary_json(model, whole).dump(2) + "\n");
   if (!page && !on_event) return;

@@ -57,6 +57,8 @@ class RunFolder {
 
  private:
   void add_to_surface(const ScanRecord& record, const Scan& scan, const VoxelMap& map);
+  /// Where scans are kept because their poses may have been improved since they were fused.
+  void make_surface_again(const ObjectModel& model);
   /// Returns how good the mesh is; nothing where there is none.
   [[nodiscard]] std::optional<MeshQuality> write_surface(const VoxelMap& map);
 

@@ -28,6 +28,12 @@ struct Expectation {
   int samples = 0;       // poses
 };
 
+/// How well the pose of a view's scan could be found once it is taken (planning/registrability.hpp).
+struct Registrability {
+  double probability = 1;   // that the object's surface ends up less than half a voxel off
+  double misplacement = 0;  // expected: root of the mean squared distance along the normals, metres
+};
+
 /// One candidate view with all that was found out about it.
 struct Evaluation {
   int candidate = -1;
@@ -38,8 +44,9 @@ struct Evaluation {
   Visibility seen;
   Factors factors;
   double utility = 0;
-  double score = 0;  // what the ranking goes by: the utility, or the one expected under positioning error
+  double score = 0;                     // what the ranking goes by: the utility, or what the robot's error leaves of it
   std::optional<Expectation> expected;  // where poses around the view were sampled
+  std::optional<Registrability> registrability;  // where the scan has to be registered
 
   [[nodiscard]] bool evaluated() const { return resolution.rays() > 0; }
 };

@@ -44,7 +44,6 @@ Json status_json(const SessionStatus& status) {
 Json session_scan_json(int number, const ScanRecord& record) {
   Json json{{"number", number}};
   json.update(scan_json(record));
-  json["merged"] = record.merged;
   return json;
 }
 

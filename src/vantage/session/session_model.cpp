@@ -1,26 +1,52 @@
 #include "vantage/session/session_model.hpp"
 
+#include <utility>
+
 #include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
 
-/// Gives back what was found before, or else asks another registrar and keeps what that finds.
+/// Gives back what was found before of the first scan that it is asked about, or else asks another registrar; and keeps
+/// what it answered.
 class KeepingRegistrar : public Registrar {
  public:
   KeepingRegistrar(Registrar& registrar, std::optional<Located> known)
       : registrar_(registrar), known_(std::move(known)) {}
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override {
-    found_ = known_ ? *known_ : registrar_.locate(model, scan, points, believed);
-    return found_;
+    if (!known_) return kept(registrar_.locate(model, scan, points, believed));
+    return kept(known(scan, points, believed));
   }
-  [[nodiscard]] const Located& found() const { return found_; }
+  [[nodiscard]] Located locate_from(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                    const PoseEstimate& estimate) override {
+    if (!known_) return kept(registrar_.locate_from(model, scan, points, estimate));
+    return kept(known(scan, points, View{estimate.mean}));
+  }
+  [[nodiscard]] PoseEstimate prior(const ModelSurface& model, const View& believed) override {
+    return registrar_.prior(model, believed);
+  }
+  [[nodiscard]] std::shared_ptr<const ScanSurface> surface_of(const Scan& scan, const PointCloud& points,
+                                                              const View& believed) const override {
+    return registrar_.surface_of(scan, points, believed);
+  }
+  void believe(const PoseError& error) override { registrar_.believe(error); }
+  [[nodiscard]] bool estimates() const override { return registrar_.estimates(); }
+  [[nodiscard]] const Located& found() const { return *found_; }
 
  private:
+  [[nodiscard]] Located known(const Scan& scan, const PointCloud& points, const View& believed) {
+    Located located = *std::exchange(known_, std::nullopt);
+    located.surface = registrar_.surface_of(scan, points, believed);
+    return located;
+  }
+  [[nodiscard]] Located kept(Located located) {
+    if (!found_) found_ = located;
+    return located;
+  }
+
   Registrar& registrar_;
-  std::optional<Located> known_;
-  Located found_;
+  std::optional<Located> known_, found_;
 };
 
 }  // namespace

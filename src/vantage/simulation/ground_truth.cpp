@@ -70,7 +70,7 @@ void GroundTruth::count_samples() {
     }
     list.resize(kept);
   };
-  for (const SurfaceSample& sample : samples_) {
+  for (const MeshSample& sample : samples_) {
     const Index3 voxel = grid_.index_of(sample.point);
     if (!is_visible(voxel)) continue;
     const Index3 local = voxel - enclosure_.min;

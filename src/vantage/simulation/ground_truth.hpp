@@ -74,7 +74,7 @@ class GroundTruth {
   IndexBox enclosure_;
   BitLayout layout_;
   BitPlane visible_;
-  std::vector<SurfaceSample> samples_;
+  std::vector<MeshSample> samples_;
   std::vector<VoxelSamples> visible_surface_;
   std::int64_t visible_samples_ = 0;
 };

@@ -68,7 +68,7 @@ double signed_volume(const TriangleMesh& mesh) {
   return six_times / 6;
 }
 
-std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, int count, Random& random) {
+std::vector<MeshSample> sample_surface(const TriangleMesh& mesh, int count, Random& random) {
   require(count > 0, "surface samples = ", count, ": must be positive");
   const double area = surface_area(mesh);
   require(area > 0, "surface samples: the mesh has no area");
@@ -79,7 +79,7 @@ std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, int count, R
   const double start = random.uniform();
   const double start_a = random.uniform();
   const double start_b = random.uniform();
-  std::vector<SurfaceSample> samples;
+  std::vector<MeshSample> samples;
   samples.reserve(static_cast<std::size_t>(count));
   double area_so_far = 0;
   for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {

@@ -26,7 +26,7 @@ void check_mesh(const TriangleMesh& mesh, const std::string& name);
 [[nodiscard]] double signed_volume(const TriangleMesh& mesh);
 
 /// A point on a surface with the unit normal of its triangle.
-struct SurfaceSample {
+struct MeshSample {
   Vec3 point;
   Vec3 normal;
   int triangle;
@@ -35,6 +35,6 @@ struct SurfaceSample {
 /// `count` points that stand for equal areas. The points are taken at equal steps of area along the triangles and
 /// spread within a triangle by a sequence of low discrepancy (Roberts' R2), which leaves far less variance than
 /// independent points. Throws InputError where count is not positive or the mesh has no area.
-[[nodiscard]] std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, int count, Random& random);
+[[nodiscard]] std::vector<MeshSample> sample_surface(const TriangleMesh& mesh, int count, Random& random);
 
 }  // namespace vantage

@@ -96,7 +96,7 @@ TEST(SampleSurface, SpreadsPointsByArea) {
   const auto samples = sample_surface(box(), count, random);
   ASSERT_EQ(samples.size(), static_cast<std::size_t>(count));
   int on_top = 0, on_top_near_corner = 0;
-  for (const SurfaceSample& sample : samples) {
+  for (const MeshSample& sample : samples) {
     EXPECT_GE(sample.triangle, 0);
     const Vec3 inside = sample.point - 1e-9 * sample.normal;
     EXPECT_TRUE((inside.array() > 0).all() && inside.x() < 1 && inside.y() < 2 && inside.z() < 3)

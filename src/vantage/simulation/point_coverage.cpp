@@ -17,7 +17,7 @@ void PointMetric::validate() const {
 PointCoverage::PointCoverage(const TriangleMesh& mesh, const PointMetric& metric) : tolerance_(metric.tolerance) {
   metric.validate();
   Random random(1);
-  for (const SurfaceSample& sample : sample_surface(mesh, metric.samples, random)) samples_.push_back(sample.point);
+  for (const MeshSample& sample : sample_surface(mesh, metric.samples, random)) samples_.push_back(sample.point);
   is_near_.assign(samples_.size(), 0);
   counts_.assign(samples_.size(), 1);
 }

@@ -14,37 +14,29 @@ TriangleMesh placed(const TriangleMesh& mesh, double size, const Vec3& center) {
   return object;
 }
 
-constexpr double trust_in_robots = 0.01;
-constexpr double certain_orientation = radians(0.1);
-
-/// What registration has to search through where the sensor may be turned too: the surface then lies off by the angle
-/// times its distance.
-RegistrationOptions registration_options(const ReconstructOptions& options, const View& typical) {
-  RegistrationOptions result;
-  const PoseError error = options.robot_error(options.center)->of_move(typical, typical);
-  const PoseError::Vector deviations = error.covariance.diagonal().cwiseSqrt() + error.mean.cwiseAbs();
-  if (!error.keeps_orientation()) {
-    const double angle = deviations.tail<3>().maxCoeff();
-    const double distance = (typical.position() - options.center).norm();
-    result.orientation_error = std::max(result.orientation_error, angle);
-    result.search_radius = 3 * std::hypot(deviations.head<3>().maxCoeff(), angle * distance);
-  }
-  if (!options.sensor_model().is_ideal()) {
-    // As for real frames, which are noisy too: the robot's word decides where noise leaves a direction weakly held.
-    result.trust = trust_in_robots;
-    result.trust_at_last = 0;
-    if (error.keeps_orientation()) result.orientation_error = certain_orientation;
-    if (!result.search_radius) result.search_radius = 3 * deviations.head<3>().maxCoeff();
-  }
-  return result;
-}
-
 std::unique_ptr<Registrar> make_registrar(const ReconstructOptions& options, const SimulatedRobot& robot) {
   if (options.registration == "truth") {
     return std::make_unique<TruthRegistrar>([&robot] { return robot.true_view(); });
   }
   if (options.registration == "none") return std::make_unique<TrustingRegistrar>();
-  return std::make_unique<IcpRegistrar>(registration_options(options, options.candidate_views().views.front()));
+  RegistrarOptions registrar;
+  if (auto error = options.believed_error_model(options.center)) {
+    registrar.error = std::move(error);
+  } else {
+    registrar.error = std::make_shared<ConstantError>(PoseError());
+  }
+  registrar.sensor = options.sensor_model();
+  registrar.first_is_exact = simulated_robot_options(options).first_pose_exact;
+  return std::make_unique<IcpRegistrar>(registrar);
+}
+
+/// How far the scan's points are off in the mean where it counts as taken from `registered`, metres.
+double mean_displacement(const PointCloud& points, const View& registered, const View& truth) {
+  double sum = 0;
+  for (const Vec3& point : points.points)
+    sum += (registered.world_from_sensor * point - truth.world_from_sensor * point).norm();
+  return points.size() == 0 ? (registered.position() - truth.position()).norm()
+                            : sum / static_cast<double>(points.size());
 }
 
 }  // namespace
@@ -85,9 +77,18 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   loop.on_plan = observer.on_plan;
   loop.on_scan = [&](ScanRecord& record, const Scan& scan, const ObjectModel& model, const Plan* plan) {
     record.true_view = robot.true_view();
+    record.pose_error = mean_displacement(points_of(scan), record.registered, *record.true_view);
     record.coverage = object.truth().coverage(model.map);
     record.coverage_all = object.truth().coverage_all(model.map);
     observer.on_scan(record, scan, model, plan);
+  };
+  loop.on_end = [&](ObjectModel& model) {
+    for (ScanRecord& record : model.scans) {
+      if (const auto kept = model.kept.find(record.scan); kept != model.kept.end())
+        record.pose_error = mean_displacement(points_of(kept->second.scan()), record.registered, *record.true_view);
+    }
+    model.scans.back().coverage = object.truth().coverage(model.map);
+    model.scans.back().coverage_all = object.truth().coverage_all(model.map);
   };
   loop.run(run.model, options.initial_view);
   run.stop_reason = loop.stop_reason();

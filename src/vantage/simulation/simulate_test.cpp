@@ -1,6 +1,6 @@
 #include "vantage/model/reconstruction.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "vantage/core/error.hpp"
 #include "vantage/simulation/objects.hpp"
@@ -123,6 +123,71 @@ TEST_F(Loop, GoesOnPastUnreachableViewsAndFailedRegistrations) {
   EXPECT_GT(object_.truth().coverage(model.map), 0.95);
 }
 
+/// Accepts or refuses as it is told to.
+class Moody : public TrustingRegistrar {
+ public:
+  bool accepts = true;
+  int asked = 0;
+
+  [[nodiscard]] Located locate(const ModelSurface&, const Scan&, const PointCloud&, const View& believed) override {
+    ++asked;
+    return {believed, accepts, 1, 0, accepts ? "registered" : "insufficient_overlap", ""};
+  }
+  [[nodiscard]] bool estimates() const override { return true; }
+};
+
+TEST_F(Loop, TriesRefusedScansAgainWhenTheModelHasGrownNearThem) {
+  const ReconstructOptions options = small_run();
+  ObjectModel model(options.scene_options(), options.point_spacing());
+  Moody registrar;
+  const auto add = [&](std::size_t candidate) {
+    const View view = options.candidate_views().views[candidate];
+    const Scan scan = scan_of(object_.scanner().scan(options.range_camera(), view));
+    model.scans.push_back(update(model, scan, view, registrar));
+    return model.scans.back();
+  };
+  const std::int64_t first = add(0).labels.occupied;
+  registrar.accepts = false;
+  const ScanRecord refused = add(9);
+  EXPECT_FALSE(refused.merged);
+  EXPECT_FALSE(refused.merged_after);
+  EXPECT_EQ(refused.labels.occupied, first);
+  registrar.accepts = true;
+  EXPECT_TRUE(conclude(model, registrar).empty());
+  EXPECT_EQ(registrar.asked, 2) << "nothing has grown: it is not tried";
+
+  const ScanRecord second = add(5);
+  EXPECT_EQ(second.recovered, std::vector<int>{1});
+  EXPECT_TRUE(model.waiting.empty());
+  const ScanRecord& recovered = model.scans[1];
+  EXPECT_TRUE(recovered.merged);
+  EXPECT_EQ(recovered.merged_after, 2);
+  EXPECT_GT(recovered.new_occupied, 0);
+  EXPECT_EQ(second.labels.occupied, first + second.new_occupied + recovered.new_occupied);
+  EXPECT_EQ(gains(model.scans), (std::vector<std::int64_t>{first, 0, second.new_occupied + recovered.new_occupied}));
+  EXPECT_EQ(model.cloud_growth.back(), std::pair(1, model.surface.cloud().size()));
+}
+
+TEST_F(Loop, RefusedScansDoNotCountAsFruitless) {
+  // Every scan after the first is refused: the run goes on until no view is left, not until the fourth of them.
+  class OnlyTheFirst : public Moody {
+   public:
+    [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
+                                 const View& believed) override {
+      accepts = asked == 0;
+      return Moody::locate(model, scan, points, believed);
+    }
+  } registrar;
+  const ReconstructOptions options = small_run();
+  ObjectModel model(options.scene_options(), options.point_spacing());
+  Planner planner(options.candidate_views(), options.range_camera());
+  SimulatedRobot robot(object_.scanner(), options.range_camera(), {}, 1);
+  Reconstruction loop(robot, planner, registrar);
+  loop.run(model, 0);
+  EXPECT_GT(model.scans.size(), 6U);
+  EXPECT_THAT(loop.stop_reason(), testing::HasSubstr("could not be registered"));
+}
+
 TEST_F(Loop, PutsScansWhereTheRegistrationSays) {
   ReconstructOptions options = small_run();
   options.positioning_error = Vec3::Constant(0.02);
@@ -130,10 +195,13 @@ TEST_F(Loop, PutsScansWhereTheRegistrationSays) {
   for (const ScanRecord& record : run(options).model.scans) {
     EXPECT_GT((record.true_view->position() - record.commanded.position()).norm(), 1e-4);
     EXPECT_TRUE(record.registered.position() == record.true_view->position());
+    EXPECT_EQ(record.pose_error, 0);
   }
   options.registration = "none";
   for (const ScanRecord& record : run(options).model.scans) {
     EXPECT_TRUE(record.registered.position() == record.commanded.position());
+    // Every point is off by as much as the sensor, which is not turned.
+    EXPECT_NEAR(*record.pose_error, (record.true_view->position() - record.commanded.position()).norm(), 1e-9);
   }
 }
 

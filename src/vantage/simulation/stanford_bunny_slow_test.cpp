@@ -26,6 +26,7 @@ double median(std::vector<double> values) {
 struct BunnyScan {
   std::string name;
   PointCloud cloud;
+  ScanSurface surface;
   Pose truth = Pose::Identity(), believed = Pose::Identity(), found = Pose::Identity();
   bool is_registered = false;
 };
@@ -34,7 +35,9 @@ std::vector<BunnyScan> disturbed_scans(double shift, double angle, std::uint64_t
   Random random(seed);
   std::vector<BunnyScan> scans;
   for (const ScanFile& file : open_scans(folder).scans) {
-    BunnyScan scan{.name = file.name, .cloud = points_of(file.read()), .truth = file.view.world_from_sensor};
+    const Scan lines = file.read();
+    BunnyScan scan{.name = file.name, .cloud = points_of(lines), .surface = {}, .truth = file.view.world_from_sensor};
+    scan.surface = scan_surface(scan.cloud, std::get<PointScan>(lines).origins, std::nullopt);
     scan.believed = scan.truth;
     if (!scans.empty()) {
       scan.believed.translation() += shift * random.unit_vector();
@@ -62,19 +65,20 @@ TEST(StanfordBunny, DisturbedPosesRegisterBackBelowAMillimetre) {
   const RangeScanner reference(read_mesh(folder / "bun_zipper.ply"));
   EXPECT_LT(median_distance(scans[0], scans[0].truth, reference), 0.0003);  // the frames are read rightly
 
-  ModelSurface model(0.0005);  // the spacing of the scans
-  model.merge(scans[0].cloud, scans[0].truth);
+  RegisteredSurface model;
+  model.merge(scans[0].surface, scans[0].truth);
   scans[0].is_registered = true;
   // A scan that does not overlap the model yet is tried again when the model has grown.
   for (bool has_grown = true; has_grown;) {
     has_grown = false;
     for (BunnyScan& scan : scans) {
       if (scan.is_registered) continue;
-      const Registration registration = register_scan(model, scan.cloud, scan.believed);
+      const Registration registration =
+          register_scan(model, scan.surface, PoseEstimate::around(scan.believed, 0.02, radians(3)));
       if (!registration.succeeded()) continue;
       scan.found = registration.world_from_sensor;
       scan.is_registered = has_grown = true;
-      model.merge(scan.cloud, scan.found);
+      model.merge(scan.surface, scan.found);
     }
   }
   for (const BunnyScan& scan : scans) {

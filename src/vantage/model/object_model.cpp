@@ -1,0 +1,299 @@
+#include "vantage/model/object_model.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "vantage/model/frame_offset.hpp"
+
+namespace vantage {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of a voxel: by how much surfaces have to move in the mean for the map to be made again, while scans come and at last.
+constexpr double visible_move = 0.25;
+constexpr double least_move = 0.05;
+
+double passed_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+LabelCounts label_counts(const VoxelMap& map) {
+  const auto outside = map.grid().size.cast<std::int64_t>().prod() - map.enclosure().size().cast<std::int64_t>().prod();
+  return {map.count(Label::unmarked), map.count(Label::occupied), map.count(Label::empty) - outside,
+          map.count(Label::occluded), map.count(Label::occplane)};
+}
+
+void note_map(ScanRecord& record, const VoxelMap& map) {
+  record.labels = label_counts(map);
+  record.mean_quality = map.mean_quality();
+}
+
+void note(ScanRecord& record, const Located& located) {
+  record.registered = located.view;
+  record.merged = located.accepted;
+  record.overlap = located.overlap;
+  record.residual = located.residual;
+  record.verdict = located.verdict;
+  record.detail = located.detail;
+  record.pose_covariance = located.covariance;
+  record.undetermined_directions = located.undetermined_directions;
+}
+
+/// A scan whose pose is known.
+IntegrationReport merge(ObjectModel& model, int number, const Scan& scan, const PointCloud& points,
+                        const ScanSurface* surface, const View& view, QualityReference quality) {
+  const IntegrationReport report = integrate(model.map, scan, view, quality);
+  model.surface.merge(points, view.world_from_sensor);
+  if (surface != nullptr) model.surface.merge(*surface, view.world_from_sensor);
+  model.cloud_growth.emplace_back(number, model.surface.cloud().size());
+  return report;
+}
+
+/// The same for one that was just registered.
+void merge(ObjectModel& model, ScanRecord& record, const Scan& scan, const PointCloud& points, const Located& located,
+           const PoseEstimate& prior, QualityReference quality) {
+  const IntegrationReport report =
+      merge(model, record.scan, scan, points, located.surface.get(), record.registered, quality);
+  record.new_occupied = report.new_occupied;
+  record.taken_back = report.taken_back;
+  if (located.surface && model.improves_poses) {
+    model.graph.add(record.scan, *located.surface, prior, record.registered.world_from_sensor);
+  }
+}
+
+/// Makes map, surface and graph again of the scans in `order`, where their records say.
+void make_again(ObjectModel& model, const std::vector<int>& order, const Registrar& registrar,
+                QualityReference quality) {
+  model.cloud_growth.clear();
+  model.map = VoxelMap(model.map.grid(), model.map.enclosure(), model.map.rule());
+  model.surface = ModelSurface(model.surface.fused().spacing());
+  for (const int number : order) {
+    const ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
+    const Scan scan = model.kept.at(number).scan();
+    const PointCloud points = points_of(scan);
+    const std::shared_ptr<const ScanSurface> surface = registrar.surface_of(scan, points, record.believed);
+    (void)merge(model, number, scan, points, surface.get(), record.registered, quality);
+  }
+}
+
+std::vector<int> merged_scans(const ObjectModel& model) {
+  std::vector<int> order;
+  for (const auto& [number, size] : model.cloud_growth) order.push_back(number);
+  return order;
+}
+
+/// Improves all poses together. Surfaces that move by less than `visible` metres stay where they are.
+void improve(ObjectModel& model, const Registrar& registrar, QualityReference quality, double visible) {
+  const ScanGraph::Improved improved = model.graph.improve();
+  if (improved.largest_move <= visible) return;
+  model.graph.accept(improved);
+  for (const auto& [number, pose] : improved.world_from_sensor)
+    model.scans[static_cast<std::size_t>(number)].registered = View{pose};
+  make_again(model, merged_scans(model), registrar, quality);
+}
+
+/// What the robot says of a pose, brought into the frame of the model.
+PoseEstimate in_model(const ObjectModel& model, const PoseEstimate& in_robot) {
+  std::vector<FoundPose> found;
+  for (const int number : merged_scans(model)) {
+    const auto prior = model.priors.find(number);
+    if (prior == model.priors.end()) return in_robot;  // nobody estimates poses
+    found.push_back({prior->second, model.scans[static_cast<std::size_t>(number)].registered.world_from_sensor});
+  }
+  return found.empty() ? in_robot : FrameOffset(found).in_model(in_robot);
+}
+
+std::int64_t occupied_in(const VoxelMap& map, const Box3& box) {
+  const std::vector<Index3> occupied = map.occupied_voxels();
+  return std::count_if(occupied.begin(), occupied.end(),
+                       [&](const Index3& voxel) { return box.contains(map.grid().center(voxel)); });
+}
+
+WaitingScan waiting_scan(const VoxelMap& map, const PointCloud& points, const PoseEstimate& prior) {
+  WaitingScan waiting{prior, {}, 0};
+  for (const Vec3& point : points.points) waiting.box.extend(prior.mean * point);
+  waiting.known_near = occupied_in(map, waiting.box);
+  return waiting;
+}
+
+/// How much more of the surface near a refused scan has to be known before it is tried again. A share, so that the
+/// number of trials grows with the logarithm of the surface.
+enum class Growth { a_tenth, any };
+
+bool has_grown(std::int64_t before, std::int64_t now, Growth growth) {
+  return now > before + (growth == Growth::a_tenth ? before / 10 : 0);
+}
+
+constexpr std::size_t refusals_to_doubt = 3;
+constexpr std::size_t most_doubted = 4;
+
+/// Tries waiting scans until none comes in any more; `now` is the scan after which this happens.
+std::vector<int> try_again(ObjectModel& model, Registrar& registrar, QualityReference quality, int now, Growth growth) {
+  std::vector<int> came_in;
+  std::size_t before = 0;
+  do {
+    before = came_in.size();
+    for (auto next = model.waiting.begin(); next != model.waiting.end();) {
+      auto& [number, waiting] = *next;
+      const std::int64_t known = occupied_in(model.map, waiting.box);
+      if (!has_grown(waiting.known_near, known, growth)) {
+        ++next;
+        continue;
+      }
+      waiting.known_near = known;
+      ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
+      const Scan scan = model.kept.at(number).scan();
+      const PointCloud points = points_of(scan);
+      const Located located = registrar.locate_from(model.surface, scan, points, in_model(model, waiting.prior));
+      note(record, located);
+      if (!record.merged) {
+        ++next;
+        continue;
+      }
+      merge(model, record, scan, points, located, waiting.prior, quality);
+      record.merged_after = now;
+      came_in.push_back(number);
+      next = model.waiting.erase(next);
+    }
+  } while (came_in.size() > before);
+  return came_in;
+}
+
+/// The model without the last `count` scans that were merged; they wait for themselves.
+struct Doubt {
+  ObjectModel model;
+  std::map<int, WaitingScan> doubted;
+};
+
+Doubt without_last(const ObjectModel& model, std::size_t count, const Registrar& registrar, QualityReference quality) {
+  Doubt doubt{model, {}};
+  std::vector<int> order = merged_scans(model);
+  for (std::size_t i = order.size() - count; i < order.size(); ++i) {
+    const int number = order[i];
+    ScanRecord& record = doubt.model.scans[static_cast<std::size_t>(number)];
+    record.merged = false;
+    record.merged_after.reset();
+    record.new_occupied = 0;
+    doubt.doubted.emplace(number,
+                          waiting_scan(model.map, points_of(model.kept.at(number).scan()), model.priors.at(number)));
+    doubt.model.graph.remove(number);
+  }
+  order.resize(order.size() - count);
+  make_again(doubt.model, order, registrar, quality);
+  return doubt;
+}
+
+/// Tries waiting scans, whatever they were tried with before.
+void try_all(ObjectModel& model, Registrar& registrar, QualityReference quality, int now) {
+  for (auto& [number, waiting] : model.waiting) waiting.known_near = -1;
+  (void)try_again(model, registrar, quality, now, Growth::any);
+}
+
+/// A scan that was put in a wrong place makes those after it contradict the model. Where several have been refused, the
+/// scans that were merged last are doubted: if more come in without them than they are, they were wrong. Returns the
+/// numbers of those that came in.
+std::vector<int> reconsider(ObjectModel& model, Registrar& registrar, QualityReference quality, int now) {
+  const std::vector<int> before = merged_scans(model);
+  std::optional<ObjectModel> best;
+  std::size_t most = before.size() + 1;
+  for (std::size_t count = 1; count < std::min(before.size(), most_doubted + 1); ++count) {
+    Doubt doubt = without_last(model, count, registrar, quality);
+    // First those that were refused: the doubted ones would come in again as they did.
+    try_all(doubt.model, registrar, quality, now);
+    doubt.model.waiting.merge(doubt.doubted);
+    try_all(doubt.model, registrar, quality, now);
+    if (doubt.model.cloud_growth.size() <= most) continue;
+    most = doubt.model.cloud_growth.size();
+    best = std::move(doubt.model);
+  }
+  if (!best) return {};
+  model = *std::move(best);
+  std::vector<int> came_in;
+  for (const int number : merged_scans(model)) {
+    if (std::find(before.begin(), before.end(), number) == before.end()) came_in.push_back(number);
+  }
+  return came_in;
+}
+
+/// Registers the last of model.scans, which is new.
+void add(ObjectModel& model, const Scan& scan, Registrar& registrar, QualityReference quality) {
+  const int number = model.scans.back().scan;
+  const auto record = [&]() -> ScanRecord& { return model.scans.back(); };
+  auto start = Clock::now();
+  const PointCloud points = points_of(scan);
+  const PoseEstimate prior = registrar.prior(model.surface, record().believed);
+  const Located located = model.cloud_growth.empty()
+                              ? registrar.locate(model.surface, scan, points, record().believed)
+                              : registrar.locate_from(model.surface, scan, points, in_model(model, prior));
+  note(record(), located);
+  if (registrar.estimates()) {
+    if (!model.kept_in) model.kept_in = std::make_shared<ScratchFile>();
+    model.kept.insert_or_assign(number, KeptScan(scan, model.kept_in));
+    model.priors.insert_or_assign(number, prior);
+  }
+  record().timings.registration = passed_since(start);
+
+  start = Clock::now();
+  if (located.accepted) {
+    record().merged_after = number;
+    merge(model, record(), scan, points, located, prior, quality);
+  } else {
+    model.waiting.insert_or_assign(number, waiting_scan(model.map, points, prior));
+  }
+  record().timings.integration = passed_since(start);
+
+  start = Clock::now();
+  std::vector<int> recovered;
+  if (record().new_occupied > 0) recovered = try_again(model, registrar, quality, number, Growth::a_tenth);
+  if (!located.accepted && model.waiting.size() % refusals_to_doubt == 0)
+    recovered = reconsider(model, registrar, quality, number);
+  std::erase(recovered, number);
+  record().recovered = std::move(recovered);
+  if (model.graph.is_due()) improve(model, registrar, quality, visible_move * model.map.grid().length);
+  record().timings.registration += passed_since(start);
+  note_map(record(), model.map);
+}
+
+}  // namespace
+
+ScanRecord update(ObjectModel& model, const Scan& scan, const View& believed, Registrar& registrar,
+                  QualityReference quality) {
+  ScanRecord& record = model.scans.emplace_back();
+  record.scan = static_cast<int>(model.scans.size()) - 1;
+  record.believed = believed;
+  try {
+    add(model, scan, registrar, quality);
+  } catch (...) {
+    model.scans.pop_back();
+    throw;
+  }
+  ScanRecord result = std::move(model.scans.back());
+  model.scans.pop_back();
+  return result;
+}
+
+std::vector<int> conclude(ObjectModel& model, Registrar& registrar, QualityReference quality) {
+  if (model.scans.empty()) return {};
+  const int last = model.scans.back().scan;
+  std::vector<int> came_in = try_again(model, registrar, quality, last, Growth::any);
+  ScanRecord& record = model.scans.back();
+  record.recovered.insert(record.recovered.end(), came_in.begin(), came_in.end());
+  improve(model, registrar, quality, least_move * model.map.grid().length);
+  note_map(model.scans.back(), model.map);
+  return came_in;
+}
+
+std::vector<std::int64_t> gains(const std::vector<ScanRecord>& scans) {
+  std::vector<std::int64_t> gained(scans.size(), 0);
+  for (const ScanRecord& scan : scans) {
+    if (scan.merged_after) gained.at(static_cast<std::size_t>(*scan.merged_after)) += scan.new_occupied;
+  }
+  return gained;
+}
+
+bool teach(ErrorLearner& learner, const ScanRecord& record) {
+  if (!record.merged || record.scan == 0) return false;
+  learner.add(record.commanded, record.registered);
+  return true;
+}
+
+}  // namespace vantage
