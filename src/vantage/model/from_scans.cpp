@@ -32,9 +32,9 @@ std::size_t bytes_of(const Scan& scan) {
 }
 
 /// A scan between its first and its second reading.
-class KeptScan {
+class ScanReadTwice {
  public:
-  KeptScan(std::function<Scan()> read, std::shared_ptr<std::size_t> bytes_left)
+  ScanReadTwice(std::function<Scan()> read, std::shared_ptr<std::size_t> bytes_left)
       : read_(std::move(read)), bytes_left_(std::move(bytes_left)) {}
 
   Scan read() {
@@ -63,7 +63,7 @@ class KeptScan {
 std::vector<PendingScan> kept_for_second_reading(std::vector<PendingScan> scans, std::size_t most_bytes) {
   const auto bytes_left = std::make_shared<std::size_t>(most_bytes);
   for (PendingScan& scan : scans)
-    scan.read = [kept = std::make_shared<KeptScan>(std::move(scan.read), bytes_left)] { return kept->read(); };
+    scan.read = [kept = std::make_shared<ScanReadTwice>(std::move(scan.read), bytes_left)] { return kept->read(); };
   return scans;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "vantage/registration/pose_graph.hpp"
@@ -39,10 +40,12 @@ class ScanGraph {
  private:
   struct Scan {
     int number = 0;
-    PairedSurface surface;
+    std::optional<PairedSurface> surface;  // nothing where later scans are not laid on it any more
     Pose world_from_sensor;
   };
   [[nodiscard]] std::vector<std::size_t> neighbours(const PairedSurface& surface, const Pose& world_from_sensor) const;
+
+  void forget_a_surface();
 
   std::vector<Scan> scans_;
   std::vector<PosePrior> priors_;

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 constexpr int fewest_pairs = 20;
-constexpr std::size_t most_surfels = 8000;
+constexpr std::size_t most_surfels = 4000;
 constexpr std::size_t asked_samples = 200;  // about how much two scans overlap
 
 Information pairs_at(const SurfelMap& surfels, const std::vector<SurfaceSample>& samples, const Pose& pose,
