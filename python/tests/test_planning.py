@@ -141,7 +141,7 @@ class Registration(unittest.TestCase):
     def test_a_moved_scan_is_put_back(self):
         scanner = vantage.RangeScanner(vantage.make_object("mug"))
         camera = vantage.RangeCamera.from_text("45x45:160x160")
-        model = vantage.ModelSurface(0.005)
+        model = vantage.ModelSurface(0.005, depth_noise=(0.001, 0))
         first, second = vantage.look_at([2, 0, 0.5], [0, 0, 0]), vantage.look_at([1.9, 0.6, 0.5], [0, 0, 0])
         model.merge(vantage.Scan(scanner.scan(camera, first)), first)
         believed = second.copy()

@@ -426,62 +426,27 @@ def convolve(utilities: ArrayLike, candidates: Candidates, *, sigma: Optional[Ar
 
 
 class RegistrationOptions:
-    """How scans are registered; None means: measured from the data."""
+    """How scans are registered; None means: by the sensor's noise."""
     def __init__(self, **options: Any) -> None:
-        """Attributes by keyword, e.g. RegistrationOptions(search_radius=0.05)."""
+        """Attributes by keyword, e.g. RegistrationOptions(starts=48)."""
     @property
-    def spacing(self) -> Optional[float]:
-        """Distance between neighbouring points of a scan, metres."""
-    @spacing.setter
-    def spacing(self, value: Optional[float]) -> None: ...
+    def starts(self) -> int:
+        """Poses drawn from what is believed that the search begins at."""
+    @starts.setter
+    def starts(self, value: int) -> None: ...
     @property
-    def search_radius(self) -> Optional[float]:
-        """How far points may be from where the believed pose puts them, metres."""
-    @search_radius.setter
-    def search_radius(self, value: Optional[float]) -> None: ...
+    def outlier_share(self) -> float:
+        """Share of what the sensor measures that may be wrong by more than its noise."""
+    @outlier_share.setter
+    def outlier_share(self, value: float) -> None: ...
     @property
-    def finest_cell_in_spacings(self) -> float: ...
-    @finest_cell_in_spacings.setter
-    def finest_cell_in_spacings(self, value: float) -> None: ...
+    def largest_misplacement(self) -> Optional[float]:
+        """How far surfaces may be put off by what remains unknown of the pose, metres."""
+    @largest_misplacement.setter
+    def largest_misplacement(self, value: Optional[float]) -> None: ...
     @property
-    def max_iterations(self) -> int:
-        """Per level of resolution."""
-    @max_iterations.setter
-    def max_iterations(self, value: int) -> None: ...
-    @property
-    def least_overlap(self) -> float:
-        """Share of the scan that must lie on the model."""
-    @least_overlap.setter
-    def least_overlap(self, value: float) -> None: ...
-    @property
-    def largest_residual_in_cells(self) -> float: ...
-    @largest_residual_in_cells.setter
-    def largest_residual_in_cells(self, value: float) -> None: ...
-    @property
-    def least_resistance(self) -> float: ...
-    @least_resistance.setter
-    def least_resistance(self, value: float) -> None: ...
-    @property
-    def orientation_error(self) -> float:
-        """Standard deviation of the believed orientation, radians."""
-    @orientation_error.setter
-    def orientation_error(self, value: float) -> None: ...
-    @property
-    def largest_open_misfit(self) -> Optional[float]:
-        """Metres."""
-    @largest_open_misfit.setter
-    def largest_open_misfit(self, value: Optional[float]) -> None: ...
-    @property
-    def trust(self) -> float:
-        """In the believed pose; 0: the surfaces alone decide."""
-    @trust.setter
-    def trust(self, value: float) -> None: ...
-    @property
-    def largest_share_in_free_space(self) -> float: ...
-    @largest_share_in_free_space.setter
-    def largest_share_in_free_space(self, value: float) -> None: ...
-    @property
-    def ambiguity(self) -> float: ...
+    def ambiguity(self) -> float:
+        """Largest probability that another pose is the right one."""
     @ambiguity.setter
     def ambiguity(self, value: float) -> None: ...
 
@@ -501,6 +466,12 @@ class Registration:
     def verdict(self) -> str:
         """'registered', or why not."""
     @property
+    def covariance(self) -> NDArray[numpy.float64]:
+        """(6, 6): of the position (world axes, metres) and the rotation vector (world axes, radians)."""
+    @property
+    def misplacement(self) -> float:
+        """Metres: standard deviation of 95 % of the scan's surface along its normals."""
+    @property
     def undetermined_directions(self) -> int: ...
     @property
     def explanation(self) -> str:
@@ -510,9 +481,9 @@ class Registration:
 
 
 class ModelSurface:
-    """All merged scans as one cloud, to register the next scan against."""
-    def __init__(self, spacing: float) -> None:
-        """spacing: distance between the kept points, metres."""
+    """All merged scans, to register the next scan against."""
+    def __init__(self, spacing: float, depth_noise: Optional[Tuple[float, float]] = None) -> None:
+        """spacing: distance between the points of cloud(), metres. depth_noise: (A, B), the standard deviation of a depth z is A + B z^2 metres."""
     @overload
     def merge(self, scan: Scan, world_from_sensor: ArrayLike) -> None: ...
     @overload
@@ -521,9 +492,9 @@ class ModelSurface:
         """The fused PointCloud, world frame; a copy."""
 
 @overload
-def register_scan(model: ModelSurface, scan: Scan, believed: ArrayLike, options: RegistrationOptions = ...) -> Registration: ...
+def register_scan(model: ModelSurface, scan: Scan, believed: ArrayLike, pose_error: float = 0.05, pose_angle_error: float = 5, options: RegistrationOptions = ...) -> Registration: ...
 @overload
-def register_scan(model: ModelSurface, cloud: PointCloud, believed: ArrayLike, options: RegistrationOptions = ...) -> Registration: ...
+def register_scan(model: ModelSurface, scan: PointCloud, believed: ArrayLike, pose_error: float = 0.05, pose_angle_error: float = 5, options: RegistrationOptions = ...) -> Registration: ...
 
 
 class TriangleMesh:
@@ -697,6 +668,7 @@ def simulate(object: Union[str, TriangleMesh], on_scan: Optional[Callable[[ScanR
         error_candidates = 12: strongest views that poses are sampled around
         error_samples = 32: poses around each of them, an even number
         least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
+        registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it
         registration = truth: pose of a scan: truth, none (the believed one) or icp
         max_views = 40: stop after this many scans
         max_distance = none: stop when this much has been travelled, as moves are counted: metres, or radians of an arm's joints
@@ -825,7 +797,8 @@ class ScanModel:
         convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
         error_candidates = 12: strongest views that poses are sampled around
         error_samples = 32: poses around each of them, an even number
-        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
+        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
+        registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it"""
     def __init__(self, box: ArrayLike, **options: Any) -> None:
         """See the class for the options."""
     def add(self, scan: Scan, believed: ArrayLike, name: str = '', commanded: Optional[ArrayLike] = None) -> ScanRecord:
@@ -910,7 +883,8 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
         error_candidates = 12: strongest views that poses are sampled around
         error_samples = 32: poses around each of them, an even number
-        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
+        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
+        registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it"""
 
 def scan_from_depth(depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, **options: Any) -> Tuple[Scan, NDArray[numpy.float64]]:
     """A Scan and the pose (4, 4) of its sensor from arrays as a driver and a robot give them.
@@ -1035,7 +1009,8 @@ class Session:
             convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
             error_candidates = 12: strongest views that poses are sampled around
             error_samples = 32: poses around each of them, an even number
-            least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
+            least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
+            registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it"""
     def add(self, scan: Scan, believed: ArrayLike, name: str = '', candidate: Optional[int] = None, commanded: Optional[ArrayLike] = None) -> ScanRecord:
         """Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, then registered and merged where that succeeds. candidate: index of the planned view that it was taken from; commanded: where the sensor was sent (4x4), by default that view. Returns its ScanRecord once it is safe on disk."""
     def add_depth(self, depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, name: str = '', candidate: Optional[int] = None) -> ScanRecord:

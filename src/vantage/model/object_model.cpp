@@ -236,7 +236,7 @@ void add(ObjectModel& model, const Scan& scan, Registrar& registrar, QualityRefe
   if (located.accepted) {
     record().merged_after = number;
     merge(model, record(), scan, points, located, prior, quality);
-  } else {
+  } else if (registrar.estimates()) {
     model.waiting.insert_or_assign(number, waiting_scan(model.map, points, prior));
   }
   record().timings.integration = passed_since(start);
@@ -244,7 +244,7 @@ void add(ObjectModel& model, const Scan& scan, Registrar& registrar, QualityRefe
   start = Clock::now();
   std::vector<int> recovered;
   if (record().new_occupied > 0) recovered = try_again(model, registrar, quality, number, Growth::a_tenth);
-  if (!located.accepted && model.waiting.size() % refusals_to_doubt == 0)
+  if (!located.accepted && !model.waiting.empty() && model.waiting.size() % refusals_to_doubt == 0)
     recovered = reconsider(model, registrar, quality, number);
   std::erase(recovered, number);
   record().recovered = std::move(recovered);

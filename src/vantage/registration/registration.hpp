@@ -55,7 +55,7 @@ struct Registration {
   double overlap = 0;               // share of the scan's samples that lie on the model, 0..1
   double residual = 0;              // RMS distance of these to the model, metres
   double prior_chi_squared = 0;     // squared distance from the prior's mean in standard deviations
-  double free_space_share = 0;      // of what range images say something of: where surfaces would stand in free space
+  double free_space_share = 0;      // of what range images say something of: surfaces that would be in free space
   double misplacement = 0;          // standard deviation along the normals that 95 % of the samples stay below, metres
   double rival_probability = 0;     // of the most probable other pose
   int undetermined_directions = 0;  // motions that the surfaces leave open

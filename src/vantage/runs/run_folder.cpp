@@ -106,7 +106,12 @@ void RunFolder::add_scan(const ScanRecord& record, const Scan& scan, const Objec
   if (const auto* image = std::get_if<ImageScan>(&scan)) write_frame(path() / "scans", record, image->image);
   data_.grid = model.map.grid();
   data_.enclosure = model.map.enclosure();
-  add_to_surface(record, scan, model.map);
+  if (description_.surface && model.kept.contains(record.scan)) {
+    if (!kept_in_) kept_in_ = std::make_shared<ScratchFile>();
+    kept_.insert_or_assign(record.scan, KeptScan(scan, kept_in_));
+  } else {
+    add_to_surface(record, scan, model.map);
+  }
   if (on_event && data_.scans.empty()) on_event("run", run_json(data_));
   data_.add_scan(record, model, plan);
   if (on_event) on_event("scan", scan_json(data_.scans.back()));
@@ -123,10 +128,10 @@ void RunFolder::add_to_surface(const ScanRecord& record, const Scan& scan, const
 }
 
 void RunFolder::make_surface_again(const ObjectModel& model) {
-  if (!description_.surface || model.kept.empty()) return;
+  if (!description_.surface || kept_.empty()) return;
   surface_.reset();
-  for (const auto& [number, size] : model.cloud_growth) {
-    add_to_surface(model.scans[static_cast<std::size_t>(number)], model.kept.at(number).scan(), model.map);
+  for (const auto& [number, scan] : kept_) {
+    add_to_surface(model.scans[static_cast<std::size_t>(number)], scan.scan(), model.map);
   }
 }
 

@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string_view>
 
+#include "vantage/model/kept_scan.hpp"
 #include "vantage/model/surface_volume.hpp"
 #include "vantage/runs/output_folder.hpp"
 #include "vantage/runs/run_data.hpp"
@@ -57,7 +60,7 @@ class RunFolder {
 
  private:
   void add_to_surface(const ScanRecord& record, const Scan& scan, const VoxelMap& map);
-  /// Where scans are kept because their poses may have been improved since they were fused.
+  /// Of the scans that were kept, as their poses are known in the end.
   void make_surface_again(const ObjectModel& model);
   /// Returns how good the mesh is; nothing where there is none.
   [[nodiscard]] std::optional<MeshQuality> write_surface(const VoxelMap& map);
@@ -66,6 +69,9 @@ class RunFolder {
   RunDescription description_;
   RunData data_;
   std::optional<SurfaceVolume> surface_;
+  /// As they were measured, where their poses may still be improved: the surface is made of them at the end.
+  std::map<int, KeptScan> kept_;
+  std::shared_ptr<ScratchFile> kept_in_;
 };
 
 /// The name of a run's scan in the folder `scans/`, without endings.

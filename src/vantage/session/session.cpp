@@ -242,18 +242,23 @@ PointCloud Session::cloud() {
 MeasuredMesh Session::mesh() {
   const std::lock_guard meshing(meshing_);
   const auto now = state();
-  const std::vector<int>& numbers = now->numbers;
+  std::vector<FusedScan> wanted;
+  for (std::size_t i = 0; i < now->numbers.size(); ++i) {
+    const ScanRecord& record = now->scans[i];
+    wanted.push_back({now->numbers[i], record.merged, record.registered.world_from_sensor.matrix()});
+  }
+  // Scans may have come in later, and their poses may have been improved: then all are fused again.
   const bool goes_on =
-      surface_ && fused_.size() <= numbers.size() && std::equal(fused_.begin(), fused_.end(), numbers.begin());
+      surface_ && fused_.size() <= wanted.size() && std::equal(fused_.begin(), fused_.end(), wanted.begin());
   if (!goes_on) {
     surface_.emplace(now->map.grid().box(now->map.enclosure()));
     fused_.clear();
   }
-  for (std::size_t i = fused_.size(); i < numbers.size(); ++i) {
-    fused_.push_back(numbers[i]);
+  for (std::size_t i = fused_.size(); i < wanted.size(); ++i) {
+    fused_.push_back(wanted[i]);
     const ScanRecord& record = now->scans[i];
     if (!record.merged) continue;
-    surface_->fuse(folder_.read(numbers[i]).scan, record.registered, std::nullopt, record.residual);
+    surface_->fuse(folder_.read(wanted[i].number).scan, record.registered, std::nullopt, record.residual);
   }
   return surface_->mesh();
 }

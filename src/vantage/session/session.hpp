@@ -84,6 +84,14 @@ class Session {
     SessionScan scan;
   };
 
+  /// A scan that surface_ has seen, and where it was then.
+  struct FusedScan {
+    int number = 0;
+    bool merged = false;
+    Eigen::Matrix4d world_from_sensor = Eigen::Matrix4d::Identity();
+    bool operator==(const FusedScan&) const = default;
+  };
+
   void replay();
   void note_key(const Waiting& waiting);
   [[nodiscard]] std::optional<Waiting> next_waiting(int up_to);
@@ -108,7 +116,7 @@ class Session {
   std::unique_ptr<SessionModel> model_;
   bool model_is_whole_ = true;  // no merging broke off in the middle of a scan
   std::optional<SurfaceVolume> surface_;
-  std::vector<int> fused_;  // numbers of the scans that surface_ has seen
+  std::vector<FusedScan> fused_;
   std::optional<SessionPlan> plan_;
   std::map<int, std::string> skipped_of_plan_;
 

@@ -95,6 +95,7 @@ class Unreliable : public Robot, public Registrar {
     const bool accepted = ++scans_ % 4 != 0;
     return {believed, accepted, 0.5, 0.001, accepted ? "registered" : "insufficient_overlap", ""};
   }
+  [[nodiscard]] bool estimates() const override { return false; }
 
  private:
   SimulatedRobot robot_;
@@ -123,7 +124,7 @@ TEST_F(Loop, GoesOnPastUnreachableViewsAndFailedRegistrations) {
   EXPECT_GT(object_.truth().coverage(model.map), 0.95);
 }
 
-/// Accepts or refuses as it is told to.
+/// Accepts or refuses as `accepts` says.
 class Moody : public TrustingRegistrar {
  public:
   bool accepts = true;
