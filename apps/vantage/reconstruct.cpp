@@ -39,7 +39,8 @@ void print_progress(const ScanRecord& record, const std::string& travel_unit) {
   print_note(
       "scan {:>2}  view {:>4}  {:>6.2f} % of the visible surface  {:>5} new voxels  {:>6.2f} {}  {:>4.0f} ms  {}\n",
       record.scan + 1, record.candidate, 100 * record.coverage.value_or(0), record.new_occupied, record.distance,
-      travel_unit, 1000 * record.timings.total(), record.merged ? record.reason : fmt::format("NOT MERGED, {}: {}", record.verdict, record.detail));
+      travel_unit, 1000 * record.timings.total(),
+      record.merged ? record.reason : fmt::format("NOT MERGED, {}: {}", record.verdict, record.detail));
 }
 
 RunDescription describe_run(const ReconstructRequest& request, const std::string& object_name,
