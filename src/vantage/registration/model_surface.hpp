@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/core/error.hpp"
 #include "vantage/registration/fusion.hpp"
 #include "vantage/registration/scan_surface.hpp"
 #include "vantage/registration/surfel_map.hpp"
@@ -25,7 +26,10 @@ class RegisteredSurface {
 
   [[nodiscard]] bool empty() const { return !surfels_; }
   /// Only where it is not empty.
-  [[nodiscard]] const SurfelMap& surfels() const { return *surfels_; }
+  [[nodiscard]] const SurfelMap& surfels() const {
+    if (!surfels_) throw Error("registered surface: has no scan");
+    return *surfels_;
+  }
   /// Of at most 32 scans, those that see the most different things.
   [[nodiscard]] std::span<const PosedFreeSpace> free_spaces() const { return free_spaces_; }
   /// Largest typical standard deviation of a scan's depths, metres.

@@ -28,6 +28,7 @@ struct BunnyScan {
   PointCloud cloud;
   ScanSurface surface;
   Pose truth = Pose::Identity(), believed = Pose::Identity(), found = Pose::Identity();
+  std::string why_not = {};
   bool is_registered = false;
 };
 
@@ -75,6 +76,7 @@ TEST(StanfordBunny, DisturbedPosesRegisterBackBelowAMillimetre) {
       if (scan.is_registered) continue;
       const Registration registration =
           register_scan(model, scan.surface, PoseEstimate::around(scan.believed, 0.02, radians(3)));
+      scan.why_not = registration.explanation;
       if (!registration.succeeded()) continue;
       scan.found = registration.world_from_sensor;
       scan.is_registered = has_grown = true;
@@ -82,7 +84,7 @@ TEST(StanfordBunny, DisturbedPosesRegisterBackBelowAMillimetre) {
     }
   }
   for (const BunnyScan& scan : scans) {
-    EXPECT_TRUE(scan.is_registered) << scan.name;
+    EXPECT_TRUE(scan.is_registered) << scan.name << ": " << scan.why_not;
     const double before = median_distance(scan, scan.believed, reference);
     const double after = median_distance(scan, scan.found, reference);
     std::printf("%s: median distance %.2f mm before, %.2f mm after\n", scan.name.c_str(), 1e3 * before, 1e3 * after);
