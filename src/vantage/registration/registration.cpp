@@ -94,12 +94,12 @@ class Judge {
                   rounded(result.prior_chi_squared), "; at most ", limit, " (99.9 %)");
   }
 
-  /// Surfaces that have nothing to do with each other lie within three standard deviations by chance; halfway between
-  /// that (or half of them, where noise fills the cells) and all is the least that surfaces next to each other must
-  /// fit.
+  /// Surfaces that have nothing to do with each other lie within three standard deviations by chance (or half of them,
+  /// where noise fills the cells). What lies there beyond that has to be a third of what could: sensors err by more than
+  /// their noise where they are not calibrated, and surfaces bend.
   bool refuse_fit(const PoseMode& mode, Registration& result) const {
     const double by_chance = std::min(0.5, 3 * search_.typical_deviation() / search_.cell());
-    const double limit = 0.5 * (1 + by_chance);
+    const double limit = by_chance + (1 - by_chance) / 3;
     const double share = mode.evidence.on_surface / std::max(1.0, mode.evidence.near);
     if (share >= limit) return false;
     return refuse(result, Verdict::large_residual, share, limit, "of the scan's samples beside the model's surface ",
