@@ -797,8 +797,7 @@ class ScanModel:
         convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
         error_candidates = 12: strongest views that poses are sampled around
         error_samples = 32: poses around each of them, an even number
-        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
-        registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it"""
+        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
     def __init__(self, box: ArrayLike, **options: Any) -> None:
         """See the class for the options."""
     def add(self, scan: Scan, believed: ArrayLike, name: str = '', commanded: Optional[ArrayLike] = None) -> ScanRecord:
@@ -883,8 +882,7 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
         error_candidates = 12: strongest views that poses are sampled around
         error_samples = 32: poses around each of them, an even number
-        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
-        registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it"""
+        least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
 
 def scan_from_depth(depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, **options: Any) -> Tuple[Scan, NDArray[numpy.float64]]:
     """A Scan and the pose (4, 4) of its sensor from arrays as a driver and a robot give them.
@@ -1009,8 +1007,7 @@ class Session:
             convolve = off: planning with the believed error: off, on (convolution after evaluation), normalised, or samples (what is seen from sampled poses, position and orientation)
             error_candidates = 12: strongest views that poses are sampled around
             error_samples = 32: poses around each of them, an even number
-            least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered
-            registrable = 0.5: where scans are registered: probability, planned from the overlap's information, that a view's scan ends up less than half a voxel off; views below come last; 0: do not plan for it"""
+            least_overlap = 0.1: share of known surface in a view from which its scan counts as one that can be registered"""
     def add(self, scan: Scan, believed: ArrayLike, name: str = '', candidate: Optional[int] = None, commanded: Optional[ArrayLike] = None) -> ScanRecord:
         """Adds a Scan from where the robot believes the sensor to be (4x4, world from sensor, metres): it is stored, then registered and merged where that succeeds. candidate: index of the planned view that it was taken from; commanded: where the sensor was sent (4x4), by default that view. Returns its ScanRecord once it is safe on disk."""
     def add_depth(self, depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, name: str = '', candidate: Optional[int] = None) -> ScanRecord:

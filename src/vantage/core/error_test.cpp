@@ -3,29 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-// Memory beyond a size is refused on demand.
-namespace {
-
-std::atomic<std::size_t> largest = SIZE_MAX;
-
-void* allocate(std::size_t size) {
-  if (size > largest) throw std::bad_alloc();
-  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "support/limited_memory.hpp"
 
 namespace vantage {
 namespace {
@@ -38,9 +16,9 @@ TEST(Error, ConcatKeepsTwelveDigits) { EXPECT_EQ(concat(123456.789012), "123456.
 
 TEST(Error, ConcatThrowsWhereMemoryIsShortInsteadOfCuttingTheTextOff) {
   const std::string name(1000, 'n');
-  largest = 600;
+  test::refuses_memory = [](std::size_t size) { return size > 600; };
   EXPECT_THROW((void)concat("the file ", name, " is damaged"), std::bad_alloc);
-  largest = SIZE_MAX;
+  test::refuses_memory = nullptr;
   EXPECT_EQ(concat("the file ", name, " is damaged").size(), 1000U + 20);
 }
 

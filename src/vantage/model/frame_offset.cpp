@@ -4,13 +4,6 @@
 
 namespace vantage {
 
-Mat6 FrameOffset::effect_on(const Pose& pose) const {
-  const Vec3 arm = pose.translation() - pivot_;
-  Mat6 effect = Mat6::Identity();
-  effect.topRightCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-  return effect;
-}
-
 FrameOffset::FrameOffset(std::span<const FoundPose> scans) {
   require(!scans.empty(), "frame offset: has no scan");
   pivot_ = scans.front().found.translation();
@@ -20,7 +13,7 @@ FrameOffset::FrameOffset(std::span<const FoundPose> scans) {
   Mat6 information = Mat6::Zero();
   Vec6 side = Vec6::Zero();
   for (const FoundPose& scan : scans) {
-    const Mat6 effect = effect_on(scan.believed.mean);
+    const Mat6 effect = effect_at(scan.believed.mean.translation() - pivot_);
     const Mat6 weighted = effect.transpose() * inverse_covariance(scan.believed.covariance);
     information += weighted * effect;
     side += weighted * pose_step(scan.believed.mean, scan.found);
@@ -31,7 +24,7 @@ FrameOffset::FrameOffset(std::span<const FoundPose> scans) {
 }
 
 PoseEstimate FrameOffset::in_model(const PoseEstimate& believed) const {
-  const Mat6 effect = effect_on(believed.mean);
+  const Mat6 effect = effect_at(believed.mean.translation() - pivot_);
   const Mat6 covariance = believed.covariance + effect * covariance_ * effect.transpose();
   return {stepped(believed.mean, effect * mean_), 0.5 * (covariance + covariance.transpose())};
 }

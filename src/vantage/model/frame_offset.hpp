@@ -28,8 +28,6 @@ class FrameOffset {
   [[nodiscard]] const Mat6& covariance() const { return covariance_; }
 
  private:
-  [[nodiscard]] Mat6 effect_on(const Pose& pose) const;
-
   Vec3 pivot_;
   Vec6 mean_;
   Mat6 covariance_;

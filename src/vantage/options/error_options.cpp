@@ -112,7 +112,7 @@ void validate_learning(const ErrorOptions& o) {
 
 std::vector<std::string> believed_error_option_names() {
   return {"believed-error", "believed-orientation-error", "believed-mean", "believed-covariance", "believed-growth",
-          "convolve",       "error-candidates",           "error-samples", "least-overlap",       "registrable"};
+          "convolve",       "error-candidates",           "error-samples", "least-overlap"};
 }
 
 std::optional<ErrorLearnerOptions> ErrorOptions::learner_options() const {

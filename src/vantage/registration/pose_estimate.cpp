@@ -26,6 +26,12 @@ Pose stepped(const Pose& from, const Vec6& step) {
   return pose;
 }
 
+Mat6 effect_at(const Vec3& arm) {
+  Mat6 effect = Mat6::Identity();
+  effect.topRightCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  return effect;
+}
+
 PoseEstimate PoseEstimate::around(const Pose& mean, double sigma_position, double sigma_angle) {
   Vec6 variances;
   variances << Vec3::Constant(sigma_position * sigma_position), Vec3::Constant(sigma_angle * sigma_angle);

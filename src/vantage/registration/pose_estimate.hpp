@@ -16,6 +16,10 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 /// The pose that a step leads to: what pose_step() undoes.
 [[nodiscard]] Pose stepped(const Pose& from, const Vec6& step);
 
+/// How a step of a frame moves another one that is fixed to it at `arm` from its origin (world axes, metres): step of
+/// the other = effect * step. It is turned by the same and carried along.
+[[nodiscard]] Mat6 effect_at(const Vec3& arm);
+
 /// A pose (world from sensor, or frame a from frame b) that is known up to a normally distributed error: `covariance`
 /// is that of pose_step(mean, true pose), m^2, m rad and rad^2. Directions without variance are known exactly.
 struct PoseEstimate {

@@ -63,10 +63,7 @@ Mat6 information_in_world(const PoseConstraint& constraint, std::span<const Pose
 
 /// How the pose that `from` claims for `to` follows a step of `from`: it turns about the position of `from`.
 Mat6 effect_of_from(const PoseConstraint& constraint, std::span<const Pose> poses) {
-  const Vec3 arm = poses[constraint.from].linear() * constraint.from_of_to.translation();
-  Mat6 effect = Mat6::Identity();
-  effect.topRightCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-  return effect;
+  return effect_at(poses[constraint.from].linear() * constraint.from_of_to.translation());
 }
 
 /// One Gauss-Newton step for all poses: a residual changes by the step of `to` less what the step of `from` does there.

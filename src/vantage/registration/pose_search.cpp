@@ -1,11 +1,8 @@
 #include "vantage/registration/pose_search.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "vantage/core/normal_points.hpp"
 #include "vantage/core/parallel.hpp"
@@ -20,14 +17,6 @@ constexpr std::size_t most_modes = 4;
 
 SurfaceSample placed(const SurfaceSample& sample, const Pose& pose) {
   return {pose * sample.point, pose.linear() * sample.normal, sample.sigma};
-}
-
-/// How a step of the sensor at the origin moves a point.
-Eigen::Matrix<double, 3, 6> effect_of_step(const Vec3& arm) {
-  Eigen::Matrix<double, 3, 6> effect;
-  effect.leftCols<3>().setIdentity();
-  effect.rightCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-  return effect;
 }
 
 /// Part of the errors that is common to all samples of a scan and does not average out (the model's own pose, the
@@ -82,7 +71,7 @@ double PoseSearch::moved(const Eigen::VectorXd& step) const {
 double PoseSearch::moved_by(const Mat6& covariance) const {
   double squares = 0;
   for (const SurfaceSample& sample : coarse_) {
-    const Eigen::Matrix<double, 3, 6> effect = effect_of_step(prior_.mean().linear() * sample.point);
+    const Eigen::Matrix<double, 3, 6> effect = effect_at(prior_.mean().linear() * sample.point).topRows<3>();
     squares += (effect * covariance * effect.transpose()).trace();
   }
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, coarse_.size())));
@@ -198,7 +187,7 @@ Information PoseSearch::fine_pairs(const Pose& pose, double spread) const {
     const int found = surfels.nearest(sample.point, sample.normal);
     if (found < 0) continue;
     const SurfacePair pair = surface_pair(sample, surfels.surfels()[static_cast<std::size_t>(found)], floor_);
-    // Beyond a border of the model the surface goes on where nobody has looked: pairs across it would pull sideways.
+    // Past the model's border nothing is known of the surface; pairs across the border would pull the scan sideways.
     const Vec3 offset = pair.target - pair.point;
     if ((offset - pair.normal * pair.residual()).squaredNorm() > cell() * cell()) continue;
     sum.add(pair, pose.translation(), spread);
@@ -212,12 +201,10 @@ void PoseSearch::refine(PoseMode& mode) const {
   for (int i = 0; i < iterations; ++i) {
     const Information pairs = fine_pairs(prior_.pose(mode.u), spread);
     // After some steps no direction changes sides, so that the pose cannot swing for ever.
-    if (i < settling) {
-      mode.axes = pose_axes(prior_, pairs, shared_error);
-    }
+    if (i < settling) mode.axes = pose_axes(prior_, pairs, shared_error);
     mode.posterior = posterior_step(prior_, pairs, mode.u, mode.axes);
-    // Noise hands samples from surfel to surfel and back for ever: half steps find the middle, and steps
-    // far below a cell are nothing but that.
+    // Noise makes samples switch between neighbouring surfels for ever: half steps settle between them, and steps far
+    // below a cell are no more than that.
     mode.u += (i < 2 * iterations / 3 ? 1.0 : 0.5) * mode.posterior.step;
     const double distance = moved(mode.posterior.step);
     mode.converged = spread == 0 && distance < 0.1 * cell();

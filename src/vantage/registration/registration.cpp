@@ -95,8 +95,8 @@ class Judge {
   }
 
   /// Surfaces that have nothing to do with each other lie within three standard deviations by chance (or half of them,
-  /// where noise fills the cells). What lies there beyond that has to be a third of what could: sensors err by more than
-  /// their noise where they are not calibrated, and surfaces bend.
+  /// where noise fills the cells). What lies there beyond that has to be a third of what could: sensors err by more
+  /// than their noise where they are not calibrated, and surfaces bend.
   bool refuse_fit(const PoseMode& mode, Registration& result) const {
     const double by_chance = std::min(0.5, 3 * search_.typical_deviation() / search_.cell());
     const double limit = by_chance + (1 - by_chance) / 3;
@@ -119,9 +119,11 @@ class Judge {
     const double largest = options_.largest_misplacement.value_or(std::max(3 * sigma_, 0.5 * search_.cell()));
     const double misplaced = 2 * result.misplacement;
     if (misplaced <= largest) return false;
-    return refuse(result, Verdict::degenerate, misplaced, largest, "the overlap leaves ",
-                  result.undetermined_directions,
-                  " directions open, and what is believed of the pose may put surfaces ", millimetres(misplaced),
+    const int open = result.undetermined_directions;
+    const std::string cause =
+        open == 0 ? "the overlap says too little of the pose"
+                  : concat("the overlap leaves ", open, open > 1 ? " directions" : " direction", " of the pose open");
+    return refuse(result, Verdict::degenerate, misplaced, largest, cause, ": surfaces may be ", millimetres(misplaced),
                   " mm off; at most ", millimetres(largest), " mm may be");
   }
 

@@ -24,7 +24,7 @@ Information pairs_at(const SurfelMap& surfels, const std::vector<SurfaceSample>&
     const int found = surfels.nearest(placed.point, placed.normal);
     if (found < 0) continue;
     const SurfaceSample& surfel = surfels.surfels()[static_cast<std::size_t>(found)];
-    // Beyond a border the surface goes on where the other scan has not looked.
+    // Past its border the other scan says nothing of the surface.
     const Vec3 offset = placed.point - surfel.point;
     if ((offset - surfel.normal * surfel.normal.dot(offset)).norm() > cell) continue;
     sum.add(surface_pair(placed, surfel, rounding * rounding), pose.translation(), spread);

@@ -2,37 +2,26 @@
 
 #include <atomic>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 
+#include "support/limited_memory.hpp"
 #include "support/test_folder.hpp"
 #include "vantage/session/session.hpp"
 #include "vantage/session/session_test_util.hpp"
 
 // What a session does where memory runs out. Memory of a size that only one scan's pixels take is refused on demand.
+namespace vantage {
 namespace {
 
 constexpr std::size_t pixels = std::size_t{41} * 41;
 std::atomic<bool> is_short = false;
 std::atomic<std::size_t> largest = SIZE_MAX;
 
-void* allocate(std::size_t size) {
-  if (size > largest || (is_short && size > 0 && size % (4 * pixels) == 0)) throw std::bad_alloc();
-  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
+bool refuses(std::size_t size) { return size > largest || (is_short && size > 0 && size % (4 * pixels) == 0); }
 
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-
-namespace vantage {
-namespace {
+[[maybe_unused]] const bool is_installed = [] {
+  test::refuses_memory = refuses;
+  return true;
+}();
 
 using testing::ElementsAre;
 using testing::HasSubstr;
