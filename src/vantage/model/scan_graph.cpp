@@ -41,17 +41,18 @@ std::vector<std::size_t> ScanGraph::neighbours(const PairedSurface& surface, con
   std::sort(overlapping.begin(), overlapping.end());
   if (overlapping.size() > paired) overlapping.resize(paired);
   std::vector<std::size_t> chosen;
+  chosen.reserve(overlapping.size());
   for (const auto& [share, i] : overlapping) chosen.push_back(i);
   return chosen;
 }
 
 void ScanGraph::add(int number, const ScanSurface& surface, const PoseEstimate& prior, const Pose& world_from_sensor) {
-  PairedSurface paired_surface(surface);
+  auto paired_surface = std::make_shared<const PairedSurface>(surface);
   const std::size_t here = scans_.size();
-  for (const std::size_t i : neighbours(paired_surface, world_from_sensor)) {
+  for (const std::size_t i : neighbours(*paired_surface, world_from_sensor)) {
     const Scan& other = scans_[i];
     auto constraint =
-        constraint_between(*other.surface, paired_surface, other.world_from_sensor.inverse() * world_from_sensor,
+        constraint_between(*other.surface, *paired_surface, other.world_from_sensor.inverse() * world_from_sensor,
                            {.least_overlap = least_overlap});
     if (!constraint) continue;
     constraint->from = i;

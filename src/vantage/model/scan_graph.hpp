@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "vantage/registration/pose_graph.hpp"
@@ -40,7 +40,7 @@ class ScanGraph {
  private:
   struct Scan {
     int number = 0;
-    std::optional<PairedSurface> surface;  // nothing where later scans are not laid on it any more
+    std::shared_ptr<const PairedSurface> surface;  // nothing where later scans are not laid on it any more
     Pose world_from_sensor;
   };
   [[nodiscard]] std::vector<std::size_t> neighbours(const PairedSurface& surface, const Pose& world_from_sensor) const;

@@ -189,21 +189,21 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
   if (options_.believed_error) expect_errors(plan, problem, map);
   if (options_.registrability && options_.registrability->error && options_.deadline == 0) {
-    std::optional<Plan> ranked = registrable(std::move(plan), problem);
+    std::optional<Plan> ranked = registrable(std::move(plan), problem, *options_.registrability);
     if (!ranked) return std::nullopt;
     plan = *std::move(ranked);
   }
   return settled(std::move(plan), moves, problem);
 }
 
-std::optional<Plan> Planner::registrable(Plan plan, const ViewEvaluation& problem) {
-  RegistrableViews views =
-      rank_by_registrability(problem, std::move(plan.ranking), *options_.registrability, options_.stop_occplane);
+std::optional<Plan> Planner::registrable(Plan plan, const ViewEvaluation& problem,
+                                         const RegistrabilityOptions& options) {
+  RegistrableViews views = rank_by_registrability(problem, std::move(plan.ranking), options, options_.stop_occplane);
   if (views.ranking.empty()) {
     why_finished_ =
         concat("no view that meets an occplane voxel has a fair chance that its scan can be registered (at best ",
-               per_cent(views.best_probability), " %, ", per_cent(options_.registrability->fair_chance),
-               " % are asked for)", what_is_set_aside());
+               per_cent(views.best_probability), " %, ", per_cent(options.fair_chance), " % are asked for)",
+               what_is_set_aside());
     return std::nullopt;
   }
   plan.ranking = std::move(views.ranking);

@@ -122,7 +122,8 @@ class Planner {
   /// For why_finished(): which views were left out because their scans failed; empty where there are none.
   [[nodiscard]] std::string what_is_set_aside() const;
   /// Ranks by the probability of being registered too; nothing where no view with a fair chance is left.
-  [[nodiscard]] std::optional<Plan> registrable(Plan plan, const ViewEvaluation& problem);
+  [[nodiscard]] std::optional<Plan> registrable(Plan plan, const ViewEvaluation& problem,
+                                                const RegistrabilityOptions& options);
   /// Settles on the best view of the ranking that the robot gets to.
   [[nodiscard]] std::optional<Plan> settled(Plan plan, const class Moves& moves, const ViewEvaluation& problem);
   void expect_errors(Plan& plan, const ViewEvaluation& problem, const VoxelMap& map) const;

@@ -49,7 +49,8 @@ PoseSearch::PoseSearch(const RegisteredSurface& model, const ScanSurface& scan, 
   // Noise that a neighbourhood shares, and surfaces that bend within a cell.
   const double shared = 0.3 * sigma, bending = 0.03 * cell();
   floor_ = shared * shared + bending * bending;
-  index_.emplace(model.surfels().surfels(), coarse_surfels, std::max(reach_, coarse_spread_));
+  index_ = std::make_unique<const OrientedIndex>(model.surfels().surfels(), coarse_surfels,
+                                                 std::max(reach_, coarse_spread_));
 }
 
 double PoseSearch::distance(const Pose& a, const Pose& b) const {
@@ -79,6 +80,7 @@ double PoseSearch::moved_by(const Mat6& covariance) const {
 
 double PoseSearch::misplacement(const Pose& pose, const Mat6& covariance) const {
   std::vector<SurfaceSample> surfaces;
+  surfaces.reserve(fine_.size());
   for (const SurfaceSample& sample : fine_) surfaces.push_back(placed(sample, pose));
   if (scan_.free_space) {
     const Pose sensor_from_world = pose.inverse();
@@ -88,6 +90,7 @@ double PoseSearch::misplacement(const Pose& pose, const Mat6& covariance) const 
     }
   }
   std::vector<double> variances;
+  variances.reserve(fine_samples);
   for (const SurfaceSample& sample : picked_by_normal(surfaces, fine_samples)) {
     Vec6 effect;
     effect << sample.normal, (sample.point - pose.translation()).cross(sample.normal);
@@ -140,6 +143,7 @@ PoseMode PoseSearch::coarse_mode(const Eigen::VectorXd& start) const {
   }
   mode.pose = prior_.pose(mode.u);
   std::vector<PlacedSample> samples;
+  samples.reserve(coarse_.size());
   for (const SurfaceSample& in_sensor : coarse_) {
     const SurfaceSample sample = placed(in_sensor, mode.pose);
     samples.push_back({sample, index_->nearest(sample)});
@@ -148,7 +152,7 @@ PoseMode PoseSearch::coarse_mode(const Eigen::VectorXd& start) const {
                              .floor = floor_ + coarse_spread_ * coarse_spread_ / 4,
                              .still = still_,
                              .explained_within = 2 * coarse_spread_ + 2 * reach_,
-                             .known = &*index_};
+                             .known = index_.get()};
   mode.evidence = evidence_at(mode.pose, samples, scan_.free_space ? &*scan_.free_space : nullptr, model_, limits);
   mode.log_posterior = mode.evidence.log_likelihood - 0.5 * mode.u.squaredNorm();
   return mode;
@@ -222,9 +226,12 @@ PoseEvidence PoseSearch::evidence(std::span<const SurfaceSample> of, const Pose&
     const int found = model_.surfels().nearest(sample.point, sample.normal);
     samples.push_back({sample, found < 0 ? nullptr : &model_.surfels().surfels()[static_cast<std::size_t>(found)]});
   }
-  return evidence_at(
-      pose, samples, scan_.free_space ? &*scan_.free_space : nullptr, model_,
-      {.reach = cell(), .floor = floor_, .still = still_, .explained_within = cell() + 2 * reach_, .known = &*index_});
+  return evidence_at(pose, samples, scan_.free_space ? &*scan_.free_space : nullptr, model_,
+                     {.reach = cell(),
+                      .floor = floor_,
+                      .still = still_,
+                      .explained_within = cell() + 2 * reach_,
+                      .known = index_.get()});
 }
 
 void PoseSearch::weigh(PoseMode& mode) const {

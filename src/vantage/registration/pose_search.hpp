@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -66,10 +67,10 @@ class PoseSearch {
   std::optional<Box3> still_;
   /// Of the scan: with all directions of normals as far as there are any, and as the scan has them.
   std::vector<SurfaceSample> coarse_, medium_, fine_, even_;
-  std::optional<OrientedIndex> index_;  // of the model's surfels
-  double reach_ = 0;                    // RMS distance of the samples from where the prior's mean puts them, metres
-  double coarse_spread_ = 0;            // with which the coarse search ends, metres
-  double floor_ = 0;                    // variance of what noise does not explain, m^2
+  std::unique_ptr<const OrientedIndex> index_;  // of the model's surfels
+  double reach_ = 0;          // RMS distance of the samples from where the prior's mean puts them, metres
+  double coarse_spread_ = 0;  // with which the coarse search ends, metres
+  double floor_ = 0;          // variance of what noise does not explain, m^2
 };
 
 }  // namespace vantage
