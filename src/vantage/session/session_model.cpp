@@ -15,13 +15,15 @@ class KeepingRegistrar : public Registrar {
       : registrar_(registrar), known_(std::move(known)) {}
   [[nodiscard]] Located locate(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                const View& believed) override {
-    if (!known_) return kept(registrar_.locate(model, scan, points, believed));
-    return kept(known(scan, points, believed));
+    const std::optional<Located> known = std::exchange(known_, std::nullopt);
+    return kept(known ? with_surface(*known, scan, points, believed)
+                      : registrar_.locate(model, scan, points, believed));
   }
   [[nodiscard]] Located locate_from(const ModelSurface& model, const Scan& scan, const PointCloud& points,
                                     const PoseEstimate& estimate) override {
-    if (!known_) return kept(registrar_.locate_from(model, scan, points, estimate));
-    return kept(known(scan, points, View{estimate.mean}));
+    const std::optional<Located> known = std::exchange(known_, std::nullopt);
+    return kept(known ? with_surface(*known, scan, points, View{estimate.mean})
+                      : registrar_.locate_from(model, scan, points, estimate));
   }
   [[nodiscard]] PoseEstimate prior(const ModelSurface& model, const View& believed) override {
     return registrar_.prior(model, believed);
@@ -32,21 +34,25 @@ class KeepingRegistrar : public Registrar {
   }
   void believe(const PoseError& error) override { registrar_.believe(error); }
   [[nodiscard]] bool estimates() const override { return registrar_.estimates(); }
-  [[nodiscard]] const Located& found() const { return *found_; }
+  /// The first answer.
+  [[nodiscard]] const Located& found() const { return found_; }
 
  private:
-  [[nodiscard]] Located known(const Scan& scan, const PointCloud& points, const View& believed) {
-    Located located = *std::exchange(known_, std::nullopt);
+  [[nodiscard]] Located with_surface(Located located, const Scan& scan, const PointCloud& points,
+                                     const View& believed) const {
     located.surface = registrar_.surface_of(scan, points, believed);
     return located;
   }
   [[nodiscard]] Located kept(Located located) {
-    if (!found_) found_ = located;
+    if (!has_answered_) found_ = located;
+    has_answered_ = true;
     return located;
   }
 
   Registrar& registrar_;
-  std::optional<Located> known_, found_;
+  std::optional<Located> known_;
+  Located found_;
+  bool has_answered_ = false;
 };
 
 }  // namespace
