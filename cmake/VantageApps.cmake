@@ -76,6 +76,10 @@ add_executable(vantage ${vantage_app_sources})
 target_link_libraries(vantage PRIVATE vantage_experiments vantage_doctor vantage_server vantage_build_settings fmt::fmt CLI11::CLI11)
 target_compile_definitions(vantage PRIVATE VANTAGE_VERSION="${PROJECT_VERSION}")
 # `vantage --version` says from which commit it was built, where that is known.
+# Every commit, and every change of branch, is written into this file: the build files are then made again.
+if(EXISTS ${PROJECT_SOURCE_DIR}/.git/logs/HEAD)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/.git/logs/HEAD)
+endif()
 execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} rev-parse --short=12 HEAD
   OUTPUT_VARIABLE vantage_commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/vantage/main.cpp PROPERTIES
