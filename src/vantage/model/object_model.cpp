@@ -75,11 +75,16 @@ void make_again(ObjectModel& model, const std::vector<int>& order, const Registr
   }
 }
 
-std::vector<int> merged_scans(const ObjectModel& model) {
-  std::vector<int> order;
-  for (const auto& [number, size] : model.cloud_growth) order.push_back(number);
-  return order;
+/// The numbers of the scans in `by_number`, in the order that it has.
+template <class Scans>
+std::vector<int> numbers_in(const Scans& by_number) {
+  std::vector<int> numbers;
+  numbers.reserve(by_number.size());
+  for (const auto& entry : by_number) numbers.push_back(entry.first);
+  return numbers;
 }
+
+std::vector<int> merged_scans(const ObjectModel& model) { return numbers_in(model.cloud_growth); }
 
 /// Improves all poses together. Surfaces that move by less than `visible` metres stay where they are.
 void improve(ObjectModel& model, const Registrar& registrar, QualityReference quality, double visible) {
@@ -126,33 +131,32 @@ bool has_grown(std::int64_t before, std::int64_t now, Growth growth) {
 constexpr std::size_t refusals_to_doubt = 3;
 constexpr std::size_t most_doubted = 4;
 
+/// Tries a waiting scan where enough has become known around it. Returns whether it came in.
+bool try_one(ObjectModel& model, int number, Registrar& registrar, QualityReference quality, int now, Growth growth) {
+  WaitingScan& waiting = model.waiting.at(number);
+  const std::int64_t known = occupied_in(model.map, waiting.box);
+  if (!has_grown(waiting.known_near, known, growth)) return false;
+  waiting.known_near = known;
+  ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
+  const Scan scan = model.kept.at(number).scan();
+  const PointCloud points = points_of(scan);
+  const Located located = registrar.locate_from(model.surface, scan, points, in_model(model, waiting.prior));
+  note(record, located);
+  if (!record.merged) return false;
+  merge(model, record, scan, points, located, waiting.prior, quality);
+  record.merged_after = now;
+  model.waiting.erase(number);
+  return true;
+}
+
 /// Tries waiting scans until none comes in any more; `now` is the scan after which this happens.
 std::vector<int> try_again(ObjectModel& model, Registrar& registrar, QualityReference quality, int now, Growth growth) {
   std::vector<int> came_in;
   std::size_t before = 0;
   do {
     before = came_in.size();
-    for (auto next = model.waiting.begin(); next != model.waiting.end();) {
-      auto& [number, waiting] = *next;
-      const std::int64_t known = occupied_in(model.map, waiting.box);
-      if (!has_grown(waiting.known_near, known, growth)) {
-        ++next;
-        continue;
-      }
-      waiting.known_near = known;
-      ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
-      const Scan scan = model.kept.at(number).scan();
-      const PointCloud points = points_of(scan);
-      const Located located = registrar.locate_from(model.surface, scan, points, in_model(model, waiting.prior));
-      note(record, located);
-      if (!record.merged) {
-        ++next;
-        continue;
-      }
-      merge(model, record, scan, points, located, waiting.prior, quality);
-      record.merged_after = now;
-      came_in.push_back(number);
-      next = model.waiting.erase(next);
+    for (const int number : numbers_in(model.waiting)) {
+      if (try_one(model, number, registrar, quality, now, growth)) came_in.push_back(number);
     }
   } while (came_in.size() > before);
   return came_in;
