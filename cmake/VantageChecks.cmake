@@ -21,6 +21,8 @@ vantage_check(Repository.FilesAreShortAndFitAnyMachine ${python} ${repository}/r
 vantage_check(Repository.FileCheckFindsWhatItShould ${python} ${repository}/repository_test.py)
 vantage_check(Repository.NoTypeIsDefinedTwice ${python} ${repository}/definitions.py .)
 vantage_check(Repository.DefinitionCheckFindsWhatItShould ${python} ${repository}/definitions_test.py)
+vantage_check(Repository.NoNamesMeetInJoinedFiles ${python} ${repository}/joined_names.py .)
+vantage_check(Repository.JoinedNameCheckFindsWhatItShould ${python} ${repository}/joined_names_test.py)
 vantage_check(Repository.TextsUseTheWordsOfTheField ${python} ${repository}/english.py .)
 vantage_check(Repository.EnglishCheckFindsWhatItShould ${python} ${repository}/english_test.py)
 vantage_check(Repository.DocumentCheckFindsWhatItShould ${python} ${repository}/documents_test.py)

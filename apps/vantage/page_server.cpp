@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <chrono>
 #include <thread>
 
@@ -12,14 +11,15 @@
 #include "vantage/server/admission.hpp"
 #include "vantage/server/random_name.hpp"
 
+#include "vantage/core/number_text.hpp"
+
 namespace vantage::app {
 
 int port_from_text(const std::string& text, const std::string& option) {
-  int port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  require(error == std::errc() && end == text.data() + text.size() && port >= 0 && port <= 65535, option, " = ", text,
+  const std::optional<int> port = number_from<int>(text);
+  require(port && *port >= 0 && *port <= 65535, option, " = ", text,
           ": must be a port, 1 to 65535, or 0 for any free one");
-  return port;
+  return port.value_or(0);
 }
 
 void add_page_server_options(CLI::App& command, PageServerOptions& options) {

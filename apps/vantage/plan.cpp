@@ -11,6 +11,7 @@
 #include "plan_table.hpp"
 #include "program_options.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/files/plain_text.hpp"
 #include "vantage/model/scan_model.hpp"
 #include "vantage/options/robot_file.hpp"
 #include "vantage/options/scan_planning_options.hpp"
@@ -107,6 +108,11 @@ void plan(PlanRequest& request) {
   summary.object = description.object;
   summary.stop_reason = next ? "" : planner.why_finished();
   if (folder) {
+    for (const int number : scans.conclude(*registrar)) {
+      if (!request.program.quiet)
+        print_note("scan {} came in at the end, {}\n", number,
+                   printable(pending[static_cast<std::size_t>(number)].name));
+    }
     folder->finish(scans.model(), summary, next, seconds_since(start),
                    request.report ? RunPage(report_page) : RunPage());
   }

@@ -26,11 +26,13 @@ struct SessionRequest {
   ScanPlanningOptions options;     // new
   std::vector<std::string> scans;  // add
   std::optional<int> candidate;    // add
+  bool again = false;              // add
   std::vector<std::pair<std::string, std::string>>
       changed;                      // add: options of reading that are other than the session's
   int top = 10;                     // next
   std::optional<int> skip, unskip;  // next
   std::string reason;               // next
+  std::vector<int> numbers;         // remove, restore
   bool overwrite = false;           // finish
   ProgramOptions program;
 };
@@ -70,12 +72,21 @@ void add(SessionRequest& request) {
   require(!request.candidate || files.size() == 1, "candidate = ", request.candidate.value_or(0),
           ": is for one scan, there are ", files.size());
   catch_interrupts();
-  nlohmann::ordered_json added = nlohmann::ordered_json::array();
+  nlohmann::ordered_json added = nlohmann::ordered_json::array(), already = nlohmann::ordered_json::array();
   std::size_t stored = 0;
   for (const ScanFile& file : files) {
     if (was_interrupted()) break;
     ++stored;
-    const int number = session.store({file.name, file.view, file.read(), request.candidate});
+    SessionScan scan{file.name, file.view, file.read(), request.candidate};
+    const std::optional<int> same = request.again ? std::nullopt : session.same_scan(scan);
+    if (same) {
+      // A folder may be given again once it holds more.
+      already.push_back({{"name", file.name}, {"number", *same}});
+      print_note("vantage: left out {}, which is there already as scan {}; --again adds it all the same\n",
+                 printable(file.name), *same);
+      continue;
+    }
+    const int number = session.store(std::move(scan));
     const ScanRecord record = session.integrate(number);
     if (request.program.json) {
       added.push_back(session_scan_json(number, record));
@@ -85,7 +96,8 @@ void add(SessionRequest& request) {
       std::fflush(stdout);
     }
   }
-  if (request.program.json) fmt::print("{}\n", nlohmann::ordered_json{{"scans", added}}.dump(2));
+  if (request.program.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"scans", added}, {"already_there", already}}.dump(2));
   for (const std::string& warning : session.status().warnings) print_note("vantage: {}\n", printable(warning));
   if (stored < files.size()) throw Error(fmt::format("interrupted: {} of {} scans are stored", stored, files.size()));
 }
@@ -106,20 +118,48 @@ void next(SessionRequest& request) {
   }
 }
 
-void status(SessionRequest& request) {
-  Session session(request.folder);
+void tell_how_it_stands(Session& session, const ProgramOptions& program) {
   const SessionStatus status = session.status();
-  tell_dropped(status);
-  if (request.program.json) {
+  if (program.json) {
     fmt::print("{}\n", status_json(status).dump(2));
     return;
   }
-  fmt::print("{}: {} scans, {} of them merged, {:.2f} m travelled\n ", request.folder, status.stored, status.merged,
-             status.state->scans.empty() ? 0 : status.state->scans.back().distance);
+  if (program.quiet) return;
+  fmt::print("{}: {} scans, {} of them merged, {:.2f} m travelled\n ", session.folder().string(), status.stored,
+             status.merged, status.state->scans.empty() ? 0 : status.state->scans.back().distance);
   for (const Label label : all_labels) fmt::print(" {} {} ", status.state->map.count(label), name(label));
   fmt::print(" mean quality {:.3f}\n", status.state->map.mean_quality());
+  for (const int number : status.removed) fmt::print("scan {} was taken out\n", number);
   for (const auto& [candidate, reason] : status.skipped)
     fmt::print("view {} is skipped: {}\n", candidate, printable(reason));
+}
+
+void status(SessionRequest& request) {
+  Session session(request.folder);
+  tell_dropped(session.status());
+  ProgramOptions program = request.program;
+  program.quiet = false;  // it was asked for
+  tell_how_it_stands(session, program);
+}
+
+void remove(SessionRequest& request) {
+  const auto threads = limit_threads(request.program.threads);
+  Session session(request.folder);
+  tell_dropped(session.status());
+  for (const int number : request.numbers) {
+    session.remove(number);
+    if (!request.program.quiet && !request.program.json)
+      fmt::print("took out scan {}; `vantage session restore` puts it back\n", number);
+  }
+  tell_how_it_stands(session, request.program);
+}
+
+void restore(SessionRequest& request) {
+  const auto threads = limit_threads(request.program.threads);
+  Session session(request.folder);
+  tell_dropped(session.status());
+  for (const int number : request.numbers) session.restore(number);
+  tell_how_it_stands(session, request.program);
 }
 
 void finish(SessionRequest& request) {
@@ -169,6 +209,7 @@ void add_session(CLI::App& program) {
   step->add_option("scans", for_add->scans, "depth frames, clouds, folders of them, ROS bags, or Stanford .conf files")
       ->required();
   step->add_option("--candidate", for_add->candidate, "the planned view that this one scan was taken from");
+  step->add_flag("--again", for_add->again, "add scans too that are there already with the same measurements and pose");
   add_options(*step, noting_fields(for_add));
   add_program_options(*step, for_add->program);
 
@@ -183,6 +224,17 @@ void add_session(CLI::App& program) {
   const auto for_status = std::make_shared<SessionRequest>();
   step = add_step(*session, "status", "Say how the session stands", for_status, status);
   add_program_options(*step, for_status->program);
+
+  const auto for_remove = std::make_shared<SessionRequest>();
+  step = add_step(*session, "remove", "Take scans out, as if they had never come; their files are kept", for_remove,
+                  remove);
+  step->add_option("numbers", for_remove->numbers, "numbers of the scans, as add and status say them")->required();
+  add_program_options(*step, for_remove->program);
+
+  const auto for_restore = std::make_shared<SessionRequest>();
+  step = add_step(*session, "restore", "Put scans back that were taken out", for_restore, restore);
+  step->add_option("numbers", for_restore->numbers, "numbers of the scans, as remove said them")->required();
+  add_program_options(*step, for_restore->program);
 
   const auto for_finish = std::make_shared<SessionRequest>();
   step = add_step(*session, "finish", "Write model, mesh, map, views.csv, summary.json and report.html", for_finish,

@@ -84,7 +84,14 @@ std::vector<ScanRecord> add_files(const OpenSession& session, const std::filesys
           set.scans.size());
   std::vector<ScanRecord> records;
   for (const ScanFile& file : set.scans) {
-    records.push_back(session.get()->add({file.name, file.view, file.read(), candidate}));
+    SessionScan scan{file.name, file.view, file.read(), candidate};
+    if (const std::optional<int> same = session.get()->same_scan(scan)) {
+      const py::gil_scoped_acquire acquire;
+      const std::string text = concat("left out ", file.name, ", which is there already as scan ", *same);
+      if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+      continue;
+    }
+    records.push_back(session.get()->add(std::move(scan)));
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
@@ -101,6 +108,7 @@ void bind_status(py::module_& module) {
       .def_readonly("stored", &SessionStatus::stored, "Scans that are safe on disk.")
       .def_readonly("integrated", &SessionStatus::integrated, "Scans that were registered, with or without success.")
       .def_readonly("merged", &SessionStatus::merged, "Scans that are in the map.")
+      .def_readonly("removed", &SessionStatus::removed, "Numbers of the scans that were taken out.")
       .def_readonly("skipped", &SessionStatus::skipped, "Candidates that are not planned: {index: reason}.")
       .def_readonly("dropped", &SessionStatus::dropped, "What opening the session left out, a sentence each.")
       .def_readonly("warnings", &SessionStatus::warnings, "What could not be written since, a sentence each.")
@@ -142,8 +150,9 @@ void bind_session(py::module_& module) {
   ScanFolderOptions reading;
   const std::string files_help =
       "Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or "
-      "a "
-      "Stanford .conf. candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.\n"
+      "a Stanford .conf. Those that are there already with the same measurements and pose are left out, with a "
+      "warning. "
+      "candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.\n"
       "The session's options of reading, which keywords change for these scans alone:\n\n" +
       options_text(option_fields(reading));
   py::class_<OpenSession>(module, "Session", help.c_str())
@@ -181,6 +190,13 @@ void bind_session(py::module_& module) {
       .def(
           "unskip", [](const OpenSession& session, int candidate) { session.get()->unskip(candidate); },
           py::arg("candidate"), Release(), "Takes skip() back.")
+      .def(
+          "remove", [](const OpenSession& session, int number) { session.get()->remove(number); }, py::arg("number"),
+          Release(),
+          "Takes a scan out, as if it had never come: those after it are registered again. Its file is kept.")
+      .def(
+          "restore", [](const OpenSession& session, int number) { session.get()->restore(number); }, py::arg("number"),
+          Release(), "Takes remove() back.")
       .def(
           "status", [](const OpenSession& session) { return session.get()->status(); }, "How it stands: SessionStatus.")
       .def_property_readonly(

@@ -118,6 +118,23 @@ class Sessions(InAFolder):
             session.unskip(plan.best.candidate)
             self.assertEqual(session.next().best.candidate, plan.best.candidate)
 
+    def test_scans_are_taken_out_and_files_not_added_twice(self):
+        with vantage.Session.new(self.folder / "s", **OPTIONS) as session:
+            self.write_frames()
+            path = self.folder / "scans"
+            session.add_files(path)
+            stored = session.status().stored
+            self.assertGreater(stored, 1)
+            with self.assertWarnsRegex(UserWarning, "which is there already as scan 0"):
+                self.assertEqual(session.add_files(path), [])
+            session.remove(0)
+            self.assertEqual(session.status().removed, {0})
+            self.assertEqual(session.status().stored, stored - 1)
+            session.restore(0)
+            self.assertEqual(session.status().stored, stored)
+            with self.assertRaisesRegex(ValueError, "scan 0: was not taken out"):
+                session.restore(0)
+
     def test_the_error_is_learned_from_where_the_robot_ends_up(self):
         scanner = vantage.RangeScanner(vantage.make_object("mug"))
         camera = vantage.RangeCamera.from_intrinsics(95, 95, 39.5, 29.5, (80, 60))

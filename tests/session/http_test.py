@@ -33,7 +33,7 @@ class Description(OverHttp):
         multipart = {"Content-Type": "multipart/form-data; boundary=" + BOUNDARY}
         as_json = {"Content-Type": "application/json"}
         scans, session = "/api/session/scans", "/api/session/"
-        posts = [session + name for name in ["next", "skip", "unskip", "finish"]]
+        posts = [session + name for name in ["next", "skip", "unskip", "remove", "restore", "finish"]]
         files = [session + name for name in ["map.nrrd", "map.ply", "model.ply", "mesh.ply"]]
         one = b'{"candidate": 3}'
         everything = [(method.upper(), path, b"{}" if method == "post" else None,
@@ -63,6 +63,11 @@ class Description(OverHttp):
                 ("POST", session + "skip", b'{"candidate": 3, "reason": "far"}', as_json, 200),
                 ("POST", session + "next", one, as_json, 409),
                 ("POST", session + "unskip", one, as_json, 200),
+                ("POST", session + "remove", b'{"number": 1}', as_json, 200),
+                ("POST", session + "remove", b'{"number": 1}', as_json, 400),
+                ("POST", session + "restore", b'{"number": 1}', as_json, 200),
+                ("POST", scans, form(self.parts[1]), multipart, 201),
+                ("POST", session + "remove", b'{"number": 3}', as_json, 200),
                 ("POST", session + "finish", b"{}", as_json, 200),
                 ("GET", "/api/run", None, {}, 200),
                 *(("GET", path, None, {}, 200) for path in files),

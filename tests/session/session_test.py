@@ -241,6 +241,29 @@ class Answers(Sessions):
         succeed("session", "next", folder, "--unskip", best)
         self.assertEqual(json.loads(succeed("session", "next", folder, "--json")), first)
 
+    def test_a_scan_can_be_taken_out_and_is_not_added_twice(self):
+        folder = self.new("changed", "--registration", "icp")
+        succeed("session", "add", folder, *self.frames[:3])
+        whole = self.status(folder)
+        result = run("session", "add", folder, *self.frames[:4], "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("which is there already as scan"), 3)
+        answer = json.loads(result.stdout)
+        self.assertEqual([each["number"] for each in answer["already_there"]], [0, 1, 2])
+        self.assertEqual([each["number"] for each in answer["scans"]], [3])
+        self.assertIn("took out scan 3", succeed("session", "remove", folder, "3"))
+        after = self.status(folder)
+        self.assertEqual((after["stored"], after["removed"]), (3, [3]))
+        self.assertEqual(after["labels"], whole["labels"])
+        for number, why in [("3", "it was taken out before"), ("9", "is not in the session"), ("x", "number")]:
+            result = run("session", "remove", folder, number)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(why, result.stderr)
+        succeed("session", "restore", folder, "3")
+        self.assertEqual(self.status(folder)["stored"], 4)
+        succeed("session", "add", folder, self.frames[0], "--again")
+        self.assertEqual(self.status(folder)["stored"], 5)
+
     def test_a_damaged_scan_is_left_out_and_kept(self):
         folder = self.new("damaged")
         succeed("session", "add", folder, *self.frames[:3])

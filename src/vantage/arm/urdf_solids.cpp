@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string_view>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 
 namespace vantage {
 namespace {
@@ -40,10 +41,7 @@ bool are_numbers(std::string_view text, int count) {
     if (text.empty()) return found == count;
     const std::string_view word = text.substr(0, text.find_first_of(blanks));
     text.remove_prefix(word.size());
-    const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-    double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) return false;
+    if (!std::isfinite(number_from<double>(word).value_or(std::numeric_limits<double>::infinity()))) return false;
     ++found;
   }
 }

@@ -1,10 +1,10 @@
 #include "vantage/candidates/candidates.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/core/text.hpp"
 
 namespace vantage {
@@ -56,12 +56,9 @@ std::vector<Triangle> split_in_four(const std::vector<Triangle>& faces) {
 
 // Not std::stod, which reads "1,5" in some locales, hexadecimal numbers and leading blanks.
 double number(const std::string& part, const std::string& what, const std::string& text) {
-  double value = 0;
-  const char* const end = part.data() + part.size();
-  const auto [stop, error] = std::from_chars(part.data(), end, value);
-  require(error == std::errc{} && stop == end && std::isfinite(value), "candidates '", text, "': ", what, " = '", part,
-          "' is not a number");
-  return value;
+  const std::optional<double> value = number_from<double>(part);
+  require(value && std::isfinite(*value), "candidates '", text, "': ", what, " = '", part, "' is not a number");
+  return value.value_or(0);
 }
 
 int whole_number(const std::string& part, const std::string& what, const std::string& text) {

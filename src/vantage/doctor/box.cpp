@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 
 namespace vantage {
 namespace {
@@ -30,19 +31,13 @@ Box3 around_center(const BoxNumbers& numbers) {
   return {numbers.head<3>() - 0.5 * numbers.tail<3>(), numbers.head<3>() + 0.5 * numbers.tail<3>()};
 }
 
-double percentile(std::vector<double>& values, double share) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 /// Where most of the points are.
 BoxNumbers middle_of(const std::vector<Vec3>& points) {
   BoxNumbers numbers;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Vec3& point : points) values.push_back(point[axis]);
-    const double low = percentile(values, 0.1), high = percentile(values, 0.9);
+    const double low = lower_quantile(values, 0.1), high = lower_quantile(values, 0.9);
     numbers[axis] = 0.5 * (low + high);
     numbers[axis + 3] = high - low;
   }

@@ -10,6 +10,7 @@ namespace vantage {
 namespace {
 
 constexpr double tolerated = 0.02;            // of the other frame's median depth
+constexpr double thin = 0.003;                // of the other frame's median depth: walls that depths can tell apart
 constexpr double behind = 0.2;                // cosine from which on a surface is seen from its back
 constexpr std::size_t points_compared = 400;  // of each frame, in every pair
 constexpr std::size_t partners = 8;           // of a frame, evenly picked, besides those next to it
@@ -97,7 +98,10 @@ class ComparedFrames {
         ++counts.hidden;
       } else {
         const Vec3 normal = other_from_frame.linear() * points_[frame].normals[i];
-        ++(normal.dot(point) > behind * point.norm() ? counts.backwards : counts.agrees);
+        const bool is_back = normal.dot(point) > behind * point.norm();
+        // The far side of a thin wall lies behind what the other frame sees.
+        const bool is_far_side = is_back && point.z() > seen->most + thin * median;
+        ++(is_far_side ? counts.hidden : is_back ? counts.backwards : counts.agrees);
       }
     }
     return counts;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/recordings/scan_bytes.hpp"
 
 namespace vantage {
@@ -10,12 +11,7 @@ namespace {
 constexpr std::size_t most_frames_gathered = 300;
 constexpr std::size_t most_points = 4000;  // of a frame: a point every few pixels, more than an outline needs
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median_or_0(std::vector<double> values) { return values.empty() ? 0 : upper_median(std::move(values)); }
 
 /// Whether more of the pixels around this one have met something than not.
 bool is_among_hits(const RangeImage& image, int column, int row) {
@@ -95,7 +91,7 @@ double Evidence::median_depth() const {
   for (const FrameEvidence& frame : frames) {
     if (frame.median_depth > 0) depths.push_back(frame.median_depth);
   }
-  return median(std::move(depths));
+  return median_or_0(std::move(depths));
 }
 
 Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& options,
@@ -123,7 +119,7 @@ Evidence gather(const ScanSet& set, double far_limit, const ScanFolderOptions& o
     }
     std::vector<double> depths;
     for (const Vec3& point : frame.cloud.points) depths.push_back(point.norm());
-    frame.median_depth = median(std::move(depths));
+    frame.median_depth = median_or_0(std::move(depths));
     if (frame.cloud.points.empty()) {
       evidence.empty.push_back(frame.name);
     } else {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/doctor/consistency.hpp"
 #include "vantage/doctor/misplaced.hpp"
 #include "vantage/registration/registration.hpp"
@@ -21,12 +22,6 @@ constexpr double astray = 0.35;
 constexpr double most_contradiction = 0.2;
 constexpr double nothing_common = 0.02;
 constexpr double contradicted = 0.1;  // a frame alone, which the others see less of
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// What registration sees of a frame, and what it believes of its pose where that is off by at most `pose_error`.
 ScanSurface surface_of(const PointCloud& cloud) {
@@ -156,7 +151,7 @@ std::vector<Finding> check_frames(const Evidence& evidence, const Reading& readi
 std::vector<Finding> check_pose_errors(const Evidence& evidence, const Reading& reading, double pose_error) {
   if (evidence.frames.size() < 3) return {};
   const std::vector<double> shares = agreement_of_frames(evidence, reading);
-  const double typical = median_of(shares);
+  const double typical = upper_median(shares);
   const bool do_all_contradict = is_contradicted(consistency(evidence, reading));
   // A single frame that is far off contradicts many others, and naming it says more than that the set does not fit.
   std::vector<Finding> named = check_frames(evidence, reading, pose_error, shares, typical);

@@ -1,7 +1,5 @@
 #include "vantage/doctor/readable_poses.hpp"
 
-#include <unistd.h>
-
 #include "vantage/core/error.hpp"
 #include "vantage/core/geometry.hpp"
 #include "vantage/formats/pose_file.hpp"
@@ -11,12 +9,6 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path new_folder() {
-  std::string pattern = (fs::temp_directory_path() / "vantage-doctor-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw Error(concat(pattern, ": cannot be created"));
-  return pattern;
-}
 
 bool is_mirrored(const std::vector<RawPose>& poses) {
   for (const RawPose& pose : poses) {
@@ -38,23 +30,18 @@ ReadablePoses::ReadablePoses(const fs::path& scans, const ScanFolderOptions& opt
   for (int way = 0; way < wanted; ++way) {
     const auto fixed_poses = fixed(poses, way);
     if (!fixed_poses) return;
-    if (copies_.empty()) copies_ = new_folder();
-    fs::create_directory(copies_ / std::to_string(way));
+    if (!copies_) copies_.emplace();
+    const fs::path copies = copies_->path() / std::to_string(way);
+    fs::create_directory(copies);
     for (const RawPose& pose : *fixed_poses) {
-      write_pose(copies_ / std::to_string(way) / pose.file.filename(),
-                 rigid_pose(pose.matrix, pose.file.string(), 0.05));
+      write_pose(copies / pose.file.filename(), rigid_pose(pose.matrix, pose.file.string(), 0.05));
     }
     ++ways_;
   }
 }
 
-ReadablePoses::~ReadablePoses() {
-  std::error_code ignored;
-  if (!copies_.empty()) fs::remove_all(copies_, ignored);
-}
-
 ScanFolderOptions ReadablePoses::options(ScanFolderOptions options, int way) const {
-  if (!copies_.empty()) options.poses = (copies_ / std::to_string(way)).string();
+  if (copies_) options.poses = (copies_->path() / std::to_string(way)).string();
   return options;
 }
 

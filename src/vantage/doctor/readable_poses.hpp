@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "vantage/doctor/pose_files.hpp"
+#include "vantage/files/temporary_folder.hpp"
 #include "vantage/recordings/scan_folder.hpp"
 
 namespace vantage {
@@ -13,9 +15,6 @@ namespace vantage {
 class ReadablePoses {
  public:
   ReadablePoses(const std::filesystem::path& scans, const ScanFolderOptions& options);
-  ~ReadablePoses();
-  ReadablePoses(const ReadablePoses&) = delete;
-  ReadablePoses& operator=(const ReadablePoses&) = delete;
 
   /// What is wrong with the matrices.
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
@@ -30,7 +29,7 @@ class ReadablePoses {
 
  private:
   std::vector<Finding> findings_;
-  std::filesystem::path copies_;  // empty where the poses are good
+  std::optional<TemporaryFolder> copies_;  // none where the poses are good
   int ways_ = 1;
 };
 

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "vantage/core/error.hpp"
+#include "vantage/files/temporary_folder.hpp"
 #include "vantage/formats/map_file.hpp"
 
 extern char** environ;  // NOLINT: POSIX
@@ -128,28 +129,6 @@ class Conversation {
   int ours_ = -1;
   pid_t child_ = -1;
   std::string received_;
-};
-
-/// A new folder that is removed with its content.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "vantage-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw Error(concat("cannot make a folder ", name, ": ", std::strerror(errno)));
-    }
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 nlohmann::ordered_json matrix(const View& view) {

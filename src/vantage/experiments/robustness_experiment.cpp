@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/experiments/error_experiments.hpp"
 #include "vantage/experiments/free_flyer.hpp"
 
@@ -30,14 +31,8 @@ std::vector<double> displacements(const std::vector<RunOutcome>& outcomes) {
   return all;
 }
 
-/// The value that this share of the sorted ones does not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::clamp(at, std::size_t{1}, sorted.size()) - 1];
-}
-
 std::string in_millimetres(const std::vector<double>& sorted, double share) {
-  return sorted.empty() ? "" : fmt::format("{:.2f}", 1000 * quantile(sorted, share));
+  return sorted.empty() ? "" : fmt::format("{:.2f}", 1000 * sorted_quantile(sorted, share));
 }
 
 double seconds_of(const RunOutcome& outcome) {

@@ -56,6 +56,8 @@ void add_final(RunOutcome& outcome, const ScanRecord& record) {
   add("merged_at_once", record.merged_after == record.scan ? 1 : 0);
   add("register_probability",
       record.planned && record.planned->registrability ? record.planned->registrability->probability : not_known);
+  add("expected_misplacement",
+      record.planned && record.planned->registrability ? record.planned->registrability->misplacement : not_known);
   const View& truth = record.true_view.value_or(record.registered);
   add("position_error", (record.registered.position() - truth.position()).norm());
   add("orientation_error",

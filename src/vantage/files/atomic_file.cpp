@@ -133,6 +133,14 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   file.commit();
 }
 
+void rename_and_sync(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const Descriptor folder(open_folder(folder_of(to)));
+  if (folder.number < 0 || ::rename(from.c_str(), to.c_str()) != 0)
+    throw Error(fmt::format("{}: cannot be renamed to {}: {}", from.string(), to.string(), reason(errno)));
+  if (::fsync(folder.number) != 0 && errno != EINVAL)
+    throw SyncError(fmt::format("{}: its folder cannot be synced: {}", to.string(), reason(errno)));
+}
+
 void remove_unfinished(const std::filesystem::path& path) {
   const std::string prefix = unfinished_prefix(path);
   const auto is_unfinished = [&prefix](const std::string& name) {

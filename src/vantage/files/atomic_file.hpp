@@ -50,6 +50,10 @@ class AtomicFile {
 /// Writes the whole file as AtomicFile does.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Gives a file another name in its folder, which is then synced. Throws SyncError as AtomicFile::commit does, another
+/// Error where it kept its name.
+void rename_and_sync(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Removes what AtomicFile left of files with this name in the folder where the process was killed. Only where nobody
 /// else may be writing them.
 void remove_unfinished(const std::filesystem::path& path);

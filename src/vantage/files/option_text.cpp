@@ -1,19 +1,17 @@
 #include "vantage/files/option_text.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/core/text.hpp"
 
 namespace vantage {
 
 double number_from_text(const std::string& option, const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  require(error == std::errc() && end == text.data() + text.size() && std::isfinite(value), option, ": '", text,
-          "' is not a number");
-  return value;
+  const std::optional<double> value = number_from<double>(text);
+  require(value && std::isfinite(*value), option, ": '", text, "' is not a number");
+  return value.value_or(0);
 }
 
 void require_one_of(const std::string& option, const std::string& value, const std::vector<std::string>& names) {

@@ -3,30 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <type_traits>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n\v\f";
-
-template <class Number>
-std::optional<Number> to_number(std::string_view text) {
-  // std::from_chars knows no plus sign.
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return std::nullopt;
-  if (error == std::errc::result_out_of_range && std::is_floating_point_v<Number> &&
-      text.find_first_of("eE") != std::string_view::npos && text[text.find_first_of("eE") + 1] == '-') {
-    return Number{0};  // too small for a double, which is no mistake of the file's writer
-  }
-  return error == std::errc{} ? std::optional(value) : std::nullopt;
-}
 
 /// Bytes of the character that the text starts with; 0 where that is no valid UTF-8.
 std::size_t utf8_length(std::string_view text) {
@@ -49,9 +34,9 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> to_double(std::string_view text) { return to_number<double>(text); }
-std::optional<std::int64_t> to_integer(std::string_view text) { return to_number<std::int64_t>(text); }
-std::optional<std::uint64_t> to_unsigned(std::string_view text) { return to_number<std::uint64_t>(text); }
+std::optional<double> to_double(std::string_view text) { return number_from<double>(text); }
+std::optional<std::int64_t> to_integer(std::string_view text) { return number_from<std::int64_t>(text); }
+std::optional<std::uint64_t> to_unsigned(std::string_view text) { return number_from<std::uint64_t>(text); }
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 
 namespace vantage {
 namespace {
@@ -125,12 +126,7 @@ std::size_t points_in(const Box3& box, const Scan& scan, const View& believed) {
   }));
 }
 
-double typical_distance(std::vector<double> distances) {
-  if (distances.empty()) return 0;
-  std::sort(distances.begin(), distances.end());
-  const std::size_t middle = distances.size() / 2;
-  return distances.size() % 2 == 1 ? distances[middle] : (distances[middle - 1] + distances[middle]) / 2;
-}
+double typical_distance(std::vector<double> distances) { return distances.empty() ? 0 : median(std::move(distances)); }
 
 ScanScene fit_scene(const std::vector<PendingScan>& scans, const ScanPlanOptions& options) {
   options.validate();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 
 namespace vantage {
@@ -269,9 +270,7 @@ std::optional<double> pixel_spacing(const RangeImage& image, const View& view, c
     }
   }
   if (depths.empty()) return std::nullopt;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle * step_between_pixels(rays);
+  return upper_median(std::move(depths)) * step_between_pixels(rays);
 }
 
 }  // namespace vantage

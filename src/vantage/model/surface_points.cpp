@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/model/surface_fusion.hpp"
 #include "vantage/model/surface_key_set.hpp"
@@ -13,12 +14,6 @@ namespace {
 
 constexpr double least_cosine_of_points = 0.1;
 constexpr float least_cosine_along_band = 0.25F;  // the band along a grazing sight line is no longer than this asks for
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 float reach_along(const SurfacePoints::Point& point, float band) {
   return band / std::max(least_cosine_along_band, -point.normal.dot(point.direction));
@@ -153,7 +148,7 @@ SurfacePoints::SurfacePoints(const PointScan& scan, const View& view, const Surf
                        static_cast<float>(std::max(least_cosine_of_points, -normal.dot(direction)))});
   }
   if (points_.empty()) return;
-  measure_spacing_and_sigma(noise.sigma(median(depths)));
+  measure_spacing_and_sigma(noise.sigma(upper_median(depths)));
   for (Point& point : points_) point.weight /= static_cast<float>(sigma_ * sigma_);
 }
 
@@ -175,9 +170,9 @@ void SurfacePoints::measure_spacing_and_sigma(double given_sigma) {
           std::abs(static_cast<double>(points_[i].normal.dot(points_[other.index].place - points_[i].place))));
     }
   }
-  spacing_ = median(spacings);
+  spacing_ = upper_median(spacings);
   if (!(spacing_ > 0)) spacing_ = given_sigma;
-  const double scatter = deviations.empty() ? 0 : median(deviations) / 0.67449 / std::sqrt(2.0);
+  const double scatter = deviations.empty() ? 0 : upper_median(deviations) / 0.67449 / std::sqrt(2.0);
   sigma_ = std::max({given_sigma, scatter, least_sigma_in_spacings * spacing_, 1e-9});
   if (!(spacing_ > 0)) spacing_ = sigma_;
 }

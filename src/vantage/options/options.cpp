@@ -4,11 +4,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 #include <set>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/files/format_version.hpp"
 #include "vantage/files/yaml_text.hpp"
 
@@ -141,10 +141,7 @@ void require_known_configuration(std::string_view yaml, const std::string& name)
   while (yaml.starts_with('#')) {
     int found = 0;
     const std::string_view line = yaml.substr(0, yaml.find('\n'));
-    if (line.starts_with(head_start)) {
-      const std::string_view number = line.substr(head_start.size());
-      std::from_chars(number.data(), number.data() + number.size(), found);
-    }
+    if (line.starts_with(head_start)) found = leading_number(line.substr(head_start.size()));
     require_known_format(found, configuration_format, name);
     yaml.remove_prefix(std::min(line.size() + 1, yaml.size()));
   }

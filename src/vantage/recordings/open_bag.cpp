@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
 #include "vantage/files/compression.hpp"
 #include "vantage/files/input_file.hpp"
 #include "vantage/files/natural_order.hpp"
+#include "vantage/files/temporary_folder.hpp"
 #include "vantage/files/yaml_text.hpp"
 #include "vantage/recordings/bag.hpp"
 #include "vantage/recordings/mcap_bag.hpp"
@@ -67,26 +67,6 @@ std::vector<std::string> missing_files(const fs::path& folder) {
   }
   return missing;
 }
-
-/// A folder that is removed with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "vantage-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw Error(pattern + ": cannot be made: " + std::strerror(errno));
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::unique_ptr<Bag> open_bag_file(const fs::path& path) {
   const std::string head = InputFile(path).read(0, 16);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "vantage/core/order_statistics.hpp"
+
 namespace vantage {
 namespace {
 
@@ -47,9 +49,9 @@ void PoseTrack::finish() {
   samples_ = std::move(kept);
   std::vector<std::int64_t> gaps;
   for (std::size_t i = 1; i < samples_.size(); ++i) gaps.push_back(samples_[i].time_ns - samples_[i - 1].time_ns);
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  longest_gap_ns_ = gaps.empty() ? 0 : std::max(least_gap_ns, *middle > (1LL << 56) ? *middle : lost_samples * *middle);
+  const std::int64_t usual = gaps.empty() ? 0 : upper_median(std::move(gaps));
+  longest_gap_ns_ =
+      samples_.size() < 2 ? 0 : std::max(least_gap_ns, usual > (1LL << 56) ? usual : lost_samples * usual);
 }
 
 double PoseTrack::duration_s() const {

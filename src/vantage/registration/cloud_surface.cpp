@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/registration/lattice.hpp"
 #include "vantage/registration/point_index.hpp"
@@ -71,12 +72,7 @@ std::vector<std::size_t> one_per_cell(const std::vector<Vec3>& points, double le
   return chosen;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median_or_0(std::vector<double> values) { return values.empty() ? 0 : upper_median(std::move(values)); }
 
 /// What a cloud shows of its own noise: the thickness of the planes through few neighbours, which hold half of it.
 SensorModel measured_sensor(const PointCloud& cloud, const PointIndex& index, double spacing) {
@@ -86,7 +82,7 @@ SensorModel measured_sensor(const PointCloud& cloud, const PointIndex& index, do
   for (std::size_t i = 0; i < cloud.size(); i += step) {
     if (const auto plane = around.plane(i)) thicknesses.push_back(plane->thickness);
   }
-  return {.constant = median(std::move(thicknesses))};
+  return {.constant = median_or_0(std::move(thicknesses))};
 }
 
 }  // namespace
@@ -109,7 +105,7 @@ ScanSurface scan_surface(const PointCloud& cloud, std::span<const Vec3> origins,
   for (std::size_t i = 0; i < cloud.size(); i += cloud.size() / 1000 + 1) {
     distances.push_back((cloud.points[i] - origin(i)).norm());
   }
-  surface.sigma = sensor.sigma(median(std::move(distances)));
+  surface.sigma = sensor.sigma(median_or_0(std::move(distances)));
   const double side = neighborhood_side(surface.sigma, spacing, options.normal_sigma);
   const double of_budget = spacing * std::sqrt(static_cast<double>(cloud.size()) / options.max_samples);
   surface.spacing = std::max({spacing, side / 2, of_budget});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 
 namespace vantage {
 namespace {
@@ -24,9 +25,7 @@ double middle_depth(const std::vector<float>& depth) {
   std::vector<float> depths;
   std::copy_if(depth.begin(), depth.end(), std::back_inserter(depths), RangeImage::is_hit);
   if (depths.empty()) return static_cast<double>(RangeImage::no_return);
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(upper_median(std::move(depths)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <nanoflann.hpp>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 
 namespace vantage {
@@ -75,9 +76,7 @@ double point_spacing(const PointIndex& index) {
   parallel_for(squared.size(), [&](std::size_t i) {
     squared[i] = index.nearest(points[i * step], 5).back().squared_distance;  // the nearest is the point itself
   });
-  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-  std::nth_element(squared.begin(), middle, squared.end());
-  return std::sqrt(*middle);
+  return std::sqrt(upper_median(std::move(squared)));
 }
 
 }  // namespace vantage

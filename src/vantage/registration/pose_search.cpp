@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/normal_points.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/registration/sample_choice.hpp"
 
@@ -97,9 +98,7 @@ double PoseSearch::misplacement(const Pose& pose, const Mat6& covariance) const 
     variances.push_back(effect.dot(covariance * effect));
   }
   if (variances.empty()) return 0;
-  const auto high = variances.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(variances.size() - 1));
-  std::nth_element(variances.begin(), high, variances.end());
-  return std::sqrt(std::max(0.0, *high));
+  return std::sqrt(std::max(0.0, lower_quantile(std::move(variances), 0.95)));
 }
 
 double PoseSearch::typical_deviation() const {

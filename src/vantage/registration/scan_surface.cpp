@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 
 namespace vantage {
@@ -109,12 +110,11 @@ ImageScale scale_of(const RangeImage& image) {
   depths.reserve(image.depth.size());
   std::copy_if(image.depth.begin(), image.depth.end(), std::back_inserter(depths), RangeImage::is_hit);
   if (depths.empty()) return {};
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
+  const std::size_t hits = depths.size();
   const RayGrid rays = image.camera.rays();
   const double pixel = 2 * std::max(rays.x_half / rays.resolution.columns, rays.y_half / rays.resolution.rows);
-  const auto depth = static_cast<double>(*middle);
-  return {depths.size(), depth, pixel * depth};
+  const auto depth = static_cast<double>(upper_median(std::move(depths)));
+  return {hits, depth, pixel * depth};
 }
 
 }  // namespace

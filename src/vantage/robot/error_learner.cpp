@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/robot/error_limits.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr double deviation_over_median = 1.4826;  // of a normal distribution: sigma over the median of |x - median|
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 /// Posterior of three entries that err together, from entry `first` on.
 struct Block {

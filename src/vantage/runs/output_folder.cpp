@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/files/atomic_file.hpp"
 #include "vantage/files/format_version.hpp"
 
@@ -18,7 +18,7 @@ constexpr const char* marker = ".vantage-run";
 constexpr const char* lock_file = ".lock";
 constexpr const char* folder_in_use =
     "another run or another experiment is writing there; wait for it or choose another --out";
-constexpr std::string_view format_line = "# vantage run, format ";
+constexpr std::string_view marker_line = "# vantage run, format ";
 constexpr int run_format = 1;
 constexpr std::string_view command_line = "\ncommand: ";
 
@@ -50,9 +50,8 @@ std::string text_of(const fs::path& file) {
 /// The command that made the folder, or empty. Folders of earlier versions have no marker, but a configuration.
 std::string maker_of(const fs::path& folder) {
   const std::string text = text_of(folder / marker);
-  if (text.starts_with(format_line)) {
-    int found = 0;
-    std::from_chars(text.data() + format_line.size(), text.data() + text.size(), found);
+  if (text.starts_with(marker_line)) {
+    const int found = leading_number(std::string_view(text).substr(marker_line.size()));
     require_known_format(found, run_format, (folder / marker).string());
     if (const std::size_t at = text.find(command_line); at != std::string::npos) {
       const std::size_t begin = at + command_line.size();
@@ -140,7 +139,7 @@ OutputFolder::OutputFolder(const fs::path& path, const OutputNames& names, Forei
   lock_.emplace(path, folder_in_use);
   if (foreign == ForeignFiles::refuse) require_ours(path, names);
   remove_unfinished(path / marker);
-  write_file_atomically(path / marker, fmt::format("{}{}{}{}\n", format_line, run_format, command_line, names.command));
+  write_file_atomically(path / marker, fmt::format("{}{}{}{}\n", marker_line, run_format, command_line, names.command));
   remove_old_output(path, names);
 }
 

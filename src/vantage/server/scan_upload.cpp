@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/formats/png16.hpp"
 #include "vantage/formats/pose_file.hpp"
@@ -43,11 +43,9 @@ Intrinsics intrinsics_of(const FormPart& part) {
 }
 
 int whole_number(std::string_view text, const std::string& what) {
-  require(text.size() <= longest_name, what, ": must be a whole number");
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  require(error == std::errc() && end == text.data() + text.size(), what, ": must be a whole number");
-  return value;
+  const std::optional<int> value = number_from<int>(text);
+  require(value.has_value(), what, ": must be a whole number");
+  return value.value_or(0);
 }
 
 void require_known(const std::vector<FormPart>& parts) {

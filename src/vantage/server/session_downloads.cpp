@@ -1,9 +1,9 @@
 #include "vantage/core/error.hpp"
 #include "vantage/files/atomic_file.hpp"
+#include "vantage/files/temporary_folder.hpp"
 #include "vantage/formats/map_file.hpp"
 #include "vantage/formats/mesh_file.hpp"
 #include "vantage/formats/point_cloud_file.hpp"
-#include "vantage/server/scratch_folder.hpp"
 #include "vantage/server/session_request.hpp"
 #include "vantage/server/session_service.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 /// What `write` writes to the file that it is given.
 template <class Write>
 std::shared_ptr<const std::string> written(const std::string& name, const Write& write) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write(folder.path() / name);
   return std::make_shared<const std::string>(read_file(folder.path() / name));
 }

@@ -16,8 +16,20 @@ SessionPage::SessionPage(const ScanPlanningOptions& options, const std::string& 
   const SceneOptions scene = scene_in(session_box(options_), options_.scene).scene;
   data_.grid = scene.grid();
   data_.enclosure = scene.enclosure();
+  begin();
+}
+
+void SessionPage::begin() {
   set_up(options_.scene.radius.value_or(0), std::nullopt);
+  scans_ = 0;
+  plan_.reset();
+  is_finished_ = false;
   run_.begin(run_json(data_));
+}
+
+void SessionPage::clear() {
+  const std::lock_guard lock(mutex_);
+  begin();
 }
 
 void SessionPage::set_up(double radius, const std::optional<RangeCamera>& camera) {
@@ -32,6 +44,7 @@ void SessionPage::set_up(double radius, const std::optional<RangeCamera>& camera
 
 void SessionPage::add_scan(const SessionModel& model) {
   const std::lock_guard lock(mutex_);
+  if (model.model().scans.size() <= scans_) begin();  // scans were taken out or put back
   if (is_finished_) run_.add("state", {{"state", "waiting"}, {"stop_reason", ""}, {"summary", nullptr}});
   is_finished_ = false;
   if (model.radius() != radius_ || model.camera().has_value() != has_camera_) {

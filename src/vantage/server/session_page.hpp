@@ -16,8 +16,10 @@ class SessionPage {
   /// Begins with the map before the first scan. `run` must outlive this.
   SessionPage(const ScanPlanningOptions& options, const std::string& name, LiveRun& run);
 
-  /// The model after one scan more.
+  /// The model after one scan more. One with no more scans than are shown begins anew: some were taken out or put back.
   void add_scan(const SessionModel& model);
+  /// Shows no scan any more.
+  void clear();
   /// What is planned on the scans so far; nothing is shown where there are others by now.
   void add_plan(const SessionPlan& plan);
   /// Somebody goes to take this view.
@@ -26,6 +28,7 @@ class SessionPage {
   void add_result(const LiveRun::Json& report);
 
  private:
+  void begin();
   void set_up(double radius, const std::optional<RangeCamera>& camera);
 
   std::mutex mutex_;

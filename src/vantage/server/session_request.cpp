@@ -1,8 +1,10 @@
 #include "vantage/server/session_request.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/files/json_text.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/runs/run_files.hpp"
@@ -36,7 +38,7 @@ int query_number(const HttpRequest& request, const std::string& name, int otherw
   const std::string& text = found->second;
   require(!text.empty() && text.size() <= 6 && text.find_first_not_of("0123456789") == std::string::npos, name, " = '",
           text, "': must be a whole number from 0 to 999999");
-  return std::stoi(text);
+  return leading_number(text);
 }
 
 bool query_is_yes(const HttpRequest& request, const std::string& name) {
@@ -62,6 +64,14 @@ int body_candidate(const nlohmann::json& body, int views) {
   const nlohmann::json& value = body["candidate"];
   require(value.is_number_integer(), "candidate: must be a whole number, is ", value.type_name());
   require(value >= 0 && value < views, "candidate = ", value.dump(), ": must be one of the views 0 .. ", views - 1);
+  return value.get<int>();
+}
+
+int body_scan(const nlohmann::json& body) {
+  require(body.contains("number"), "body: has no 'number'; must be that of a scan");
+  const nlohmann::json& value = body["number"];
+  require(value.is_number_integer() && value >= 0 && value <= std::numeric_limits<int>::max(),
+          "number = ", value.dump(), ": must be that of a scan");
   return value.get<int>();
 }
 

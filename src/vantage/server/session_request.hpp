@@ -24,6 +24,8 @@ void require_query(const HttpRequest& request, std::initializer_list<std::string
 /// The key `candidate`, one of so many views.
 [[nodiscard]] int body_candidate(const nlohmann::json& body, int views);
 /// A key that is text and not empty.
+/// The number of a scan.
+[[nodiscard]] int body_scan(const nlohmann::json& body);
 [[nodiscard]] std::string body_text(const nlohmann::json& body, const std::string& key);
 
 /// x y z qx qy qz qw, world from sensor.

@@ -169,7 +169,12 @@ HttpAnswer SessionService::status(const HttpRequest& request) {
   return json_answer(status_now());
 }
 
-int SessionService::store(SessionScan scan) {
+Json SessionService::StoredUpload::with_json(Json json) const {
+  if (same_as) json["same_as"] = *same_as;
+  return json;
+}
+
+SessionService::StoredUpload SessionService::store(SessionScan scan) {
   const int views = session_->options().scene.views;
   require(scan.candidate.value_or(0) < views, "candidate = ", scan.candidate.value_or(0),
           ": must be one of the views 0 .. ", views - 1);
@@ -185,7 +190,9 @@ int SessionService::store(SessionScan scan) {
     }
   }
   try {
-    return session_->store(std::move(scan));
+    const std::optional<int> same = session_->same_scan(scan);
+    const int number = session_->store(std::move(scan));
+    return {number, same == number ? std::nullopt : same};
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {
@@ -193,7 +200,7 @@ int SessionService::store(SessionScan scan) {
   }
 }
 
-int SessionService::store_upload(const HttpRequest& request, const SessionState& state) {
+SessionService::StoredUpload SessionService::store_upload(const HttpRequest& request, const SessionState& state) {
   UploadOptions upload = upload_;
   const auto& camera = state.camera;
   if (camera)
@@ -209,15 +216,16 @@ HttpAnswer SessionService::add_scan(const HttpRequest& request) {
   const SessionStatus status = session_->status();
   if (status.stored >= status.integrated + status.left_out.size() + most_waiting)
     throw HttpError(503, concat(most_waiting, " scans wait to be merged; try again later"));
-  const int number = store_upload(request, *status.state);
+  const StoredUpload stored = store_upload(request, *status.state);
+  const int number = stored.number;
   {
     std::unique_lock lock(mutex_);
     if (number > merged_up_to_) to_merge_.push_back(number);  // else it was sent again
     stored_.notify_all();
     if (waits) merged_.wait(lock, [&] { return ends_ || merged_up_to_ >= number; });
-    if (!waits || merged_up_to_ < number) return json_answer({{"number", number}}, 202);
+    if (!waits || merged_up_to_ < number) return json_answer(stored.with_json({{"number", number}}), 202);
   }
-  return json_answer(session_scan_json(number, session_->integrate(number)), 201);
+  return json_answer(stored.with_json(session_scan_json(number, session_->integrate(number))), 201);
 }
 
 HttpAnswer SessionService::next(const HttpRequest& request) {
@@ -262,6 +270,19 @@ HttpAnswer SessionService::unskip(const HttpRequest& request) {
   return json_answer(status_now());
 }
 
+HttpAnswer SessionService::remove(const HttpRequest& request) {
+  session_->remove(body_scan(body_object(request, {"number"})));
+  if (session_->status().integrated == 0) page_.clear();
+  want_plan();
+  return json_answer(status_now());
+}
+
+HttpAnswer SessionService::restore(const HttpRequest& request) {
+  session_->restore(body_scan(body_object(request, {"number"})));
+  want_plan();
+  return json_answer(status_now());
+}
+
 HttpAnswer SessionService::finish(const HttpRequest& request) {
   (void)body_object(request, {});
   if (session_->status().integrated == 0) throw HttpError(409, "there is no scan yet; add one");
@@ -291,6 +312,8 @@ void SessionService::add_routes(HttpServer& server) {
   on(Method::post, "/api/session/next", &SessionService::take, most_plans);
   on(Method::post, "/api/session/skip", &SessionService::skip);
   on(Method::post, "/api/session/unskip", &SessionService::unskip);
+  on(Method::post, "/api/session/remove", &SessionService::remove, 1);
+  on(Method::post, "/api/session/restore", &SessionService::restore, 1);
   on(Method::post, "/api/session/finish", &SessionService::finish, 1);
   on(Method::get, "/api/session/map.nrrd", &SessionService::map_labels, most_downloads);
   on(Method::get, "/api/session/map.ply", &SessionService::map_surface, most_downloads);

@@ -37,6 +37,8 @@ class SessionService {
   [[nodiscard]] HttpAnswer take(const HttpRequest& request);
   [[nodiscard]] HttpAnswer skip(const HttpRequest& request);
   [[nodiscard]] HttpAnswer unskip(const HttpRequest& request);
+  [[nodiscard]] HttpAnswer remove(const HttpRequest& request);
+  [[nodiscard]] HttpAnswer restore(const HttpRequest& request);
   [[nodiscard]] HttpAnswer finish(const HttpRequest& request);
   [[nodiscard]] HttpAnswer map_labels(const HttpRequest& request);
   [[nodiscard]] HttpAnswer map_surface(const HttpRequest& request);
@@ -46,8 +48,15 @@ class SessionService {
   [[nodiscard]] std::function<HttpAnswer(const HttpRequest&)> handler(Handler handle);
   [[nodiscard]] std::string without_paths(std::string text) const;
   [[nodiscard]] nlohmann::ordered_json status_now();
-  [[nodiscard]] int store_upload(const HttpRequest& request, const SessionState& state);
-  [[nodiscard]] int store(SessionScan scan);
+  /// A scan that was sent.
+  struct StoredUpload {
+    int number = 0;
+    std::optional<int> same_as;  // another one with the same measurements and pose
+    /// As JSON, beside what `json` has.
+    [[nodiscard]] nlohmann::ordered_json with_json(nlohmann::ordered_json json) const;
+  };
+  [[nodiscard]] StoredUpload store_upload(const HttpRequest& request, const SessionState& state);
+  [[nodiscard]] StoredUpload store(SessionScan scan);
   void was_merged(const SessionModel& model);
   void want_plan();
   void integrate_stored();

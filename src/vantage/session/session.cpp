@@ -51,10 +51,11 @@ void Session::replay() {
       continue;
     }
     ++stored_;
-    if (waiting) note_key(*waiting);
+    if (waiting) note_identity(*waiting);
     if (waiting) integrate_one(*waiting, folder_.located(number));
   }
   skipped_ = folder_.skipped();
+  removed_ = folder_.removed();
   publish();
 }
 
@@ -66,14 +67,15 @@ int Session::store(SessionScan scan) {
   if (const auto found = number_of_key_.find(scan.key); found != number_of_key_.end()) return found->second;
   const int number = folder_.store(scan);
   waiting_.push_back({number, std::move(scan)});
-  note_key(waiting_.back());
+  note_identity(waiting_.back());
   const std::lock_guard looking(looking_);
   ++stored_;
   return number;
 }
 
-void Session::note_key(const Waiting& waiting) {
+void Session::note_identity(const Waiting& waiting) {
   if (!waiting.scan.key.empty()) number_of_key_.emplace(waiting.scan.key, waiting.number);
+  numbers_of_content_.emplace(checksum_of(measured_bytes(waiting.scan)), waiting.number);
 }
 
 void Session::integrate_one(const Waiting& waiting, const std::optional<Located>& known) {
@@ -86,14 +88,18 @@ void Session::integrate_one(const Waiting& waiting, const std::optional<Located>
   } catch (const std::exception& error) {
     leave_out(waiting.number, error.what());
     model_is_whole_ = false;
-    merge_again();
+    merge_again(model_->numbers());
     return;
   }
+  tell_follower(*model_);
+}
+
+void Session::tell_follower(const SessionModel& model) {
   try {
-    on_scan_(*model_);
+    on_scan_(model);
   } catch (const std::exception& error) {
-    warn(fmt::format("scan {} was merged, but whoever follows the session did not hear of it: {}", waiting.number,
-                     error.what()));
+    warn(fmt::format("scan {} was merged, but whoever follows the session did not hear of it: {}",
+                     model.numbers().back(), error.what()));
   }
 }
 
@@ -116,27 +122,6 @@ void Session::leave_out(int number, const std::string& why) {
   left_out_[number] = why;
 }
 
-/// After a merging that broke off in the middle: the scans that the model has, but for those left out, from the disk.
-void Session::merge_again() {
-  std::vector<int> numbers = model_->numbers();
-  while (!model_is_whole_) {
-    std::erase_if(numbers, [this](int number) { return left_out_.contains(number); });
-    auto fresh = std::make_unique<SessionModel>(options());
-    int number = -1;
-    try {
-      for (const int each : numbers) {
-        number = each;
-        (void)fresh->add(number, folder_.read(number), folder_.located(number));
-      }
-      model_ = std::move(fresh);
-      model_is_whole_ = true;
-    } catch (const std::exception& error) {
-      leave_out(number, error.what());
-    }
-  }
-  if (state()) publish();
-}
-
 void Session::publish() {
   auto now = std::make_shared<const SessionState>(model_->state());
   const std::lock_guard looking(looking_);
@@ -155,7 +140,7 @@ ScanRecord Session::integrate(int number) {
   while (true) {
     // One scan at a time, so that whoever waits for an earlier one does not wait for all.
     const std::lock_guard merging(merging_);
-    if (!model_is_whole_) merge_again();
+    if (!model_is_whole_) merge_again(model_->numbers());
     const std::optional<Waiting> waiting = next_waiting(number);
     if (!waiting) break;
     integrate_one(*waiting, std::nullopt);
@@ -228,6 +213,7 @@ SessionStatus Session::status() {
   status.merged = static_cast<std::size_t>(std::count_if(state_->scans.begin(), state_->scans.end(),
                                                          [](const ScanRecord& record) { return record.merged; }));
   status.skipped = skipped_;
+  status.removed = removed_;
   status.left_out = left_out_;
   status.dropped = folder_.dropped();
   status.warnings = warnings_;

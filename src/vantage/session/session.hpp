@@ -24,6 +24,7 @@ struct SessionStatus {
   std::size_t stored = 0, integrated = 0, merged = 0;
   std::shared_ptr<const SessionState> state;
   std::map<int, std::string> skipped;
+  std::set<int> removed;                // scans that were taken out
   std::map<int, std::string> left_out;  // scans that are safe on disk but could not be read or merged, with the reason
   std::vector<std::string> dropped;     // what opening it left out
   std::vector<std::string> warnings;    // what could not be written or shown since
@@ -44,7 +45,9 @@ class Session {
   /// Opens a session and merges its scans again where they were registered before. Throws InputError where it is none,
   /// Error where another process has it open.
   /// `on_scan` is called with the model after each scan, those merged again while opening too, in the thread that
-  /// merges; next() and status() know of the scan by then. What it throws becomes a warning: the model stays as it is.
+  /// merges; next() and status() know of the scan by then. After remove() and restore() the calls begin anew, with a
+  /// model of one scan, and next() and status() know of them once the last was merged. What it throws becomes a
+  /// warning: the model stays as it is.
   using OnScan = std::function<void(const SessionModel&)>;
   explicit Session(
       const std::filesystem::path& folder, OnScan on_scan = [](const SessionModel&) {});
@@ -62,6 +65,15 @@ class Session {
   /// Both.
   ScanRecord add(SessionScan scan) { return integrate(store(std::move(scan))); }
 
+  /// A scan that the session has already with the same measurements and pose, unless different keys say that it is
+  /// another one.
+  [[nodiscard]] std::optional<int> same_scan(const SessionScan& scan);
+  /// Takes a scan out of the session, as if it had never come: those after it are registered again without it. Its file
+  /// is kept. Throws InputError where there is no such scan.
+  void remove(int number);
+  /// Takes remove() back. Throws InputError where no such scan was taken out.
+  void restore(int number);
+
   /// The views to take next, planned on the last integrated map.
   [[nodiscard]] SessionPlan next();
   /// The view of this candidate is not planned again: it could not be reached, or somebody does not want it.
@@ -73,7 +85,8 @@ class Session {
   [[nodiscard]] PointCloud cloud();
   /// The surface in the box, from the last integrated scans; those that came since the call before are added to it.
   [[nodiscard]] MeasuredMesh mesh();
-  /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10). Scans may be
+  /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10), of all scans
+  /// together: refused ones are tried once more and all poses improved. The session itself stays as it is. Scans may be
   /// added during that and after it. Throws InputError where files of these names are there that no session wrote,
   /// unless they are to be overwritten.
   void finish(const RunPage& page, ForeignFiles foreign = ForeignFiles::refuse);
@@ -93,13 +106,14 @@ class Session {
   };
 
   void replay();
-  void note_key(const Waiting& waiting);
+  void note_identity(const Waiting& waiting);
   [[nodiscard]] std::optional<Waiting> next_waiting(int up_to);
   void integrate_one(const Waiting& waiting, const std::optional<Located>& known);
+  void tell_follower(const SessionModel& model);
   void store_located(int number, const Located& found);
   void leave_out(int number, const std::string& why);
   void warn(const std::string& what);
-  void merge_again();
+  void merge_again(std::vector<int> numbers);
   void publish();
   void change_skipped(int candidate, const std::optional<std::string>& reason);
   [[nodiscard]] std::shared_ptr<const SessionState> state() const;
@@ -113,6 +127,7 @@ class Session {
   OnScan on_scan_;
   std::deque<Waiting> waiting_;
   std::map<std::string, int> number_of_key_;
+  std::multimap<std::string, int> numbers_of_content_;  // by checksum
   std::unique_ptr<SessionModel> model_;
   bool model_is_whole_ = true;  // no merging broke off in the middle of a scan
   std::optional<SurfaceVolume> surface_;
@@ -122,6 +137,7 @@ class Session {
 
   std::shared_ptr<const SessionState> state_;
   std::map<int, std::string> skipped_, left_out_;
+  std::set<int> removed_;
   std::size_t stored_ = 0;
   std::vector<std::string> warnings_;
 };

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/number_text.hpp"
 #include "vantage/files/atomic_file.hpp"
 #include "vantage/options/robot_file.hpp"
 #include "vantage/session/sealed_file.hpp"
@@ -31,12 +32,13 @@ constexpr const char* in_use = "another process has this session open; end it, o
 std::optional<int> number_of(const fs::path& file, const char* ending) {
   if (file.extension() != ending) return std::nullopt;
   const std::string stem = file.stem().string();
-  int number = 0;
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (error != std::errc() || end != stem.data() + stem.size() || number < 0 || number > largest_number)
-    return std::nullopt;
-  return number;
+  if (stem.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+  const std::optional<int> number = number_from<int>(stem);
+  return number && *number <= largest_number ? number : std::nullopt;
 }
+
+/// Endings of files that hold a scan: one of the session, one that is damaged, one that was taken out.
+constexpr std::array<const char*, 3> scan_endings{".scan", ".damaged", ".removed"};
 
 /// The options as YAML, with the format before and their checksum behind them as comments.
 std::string options_text(ScanPlanningOptions options) {
@@ -46,11 +48,7 @@ std::string options_text(ScanPlanningOptions options) {
 
 /// Throws InputError where the bytes are not what options_text() made, or another program did that came before it.
 void require_whole_options(std::string_view bytes, const std::string& name) {
-  int found = 0;
-  if (bytes.starts_with(format_line)) {
-    const std::string_view rest = bytes.substr(format_line.size());
-    std::from_chars(rest.data(), rest.data() + rest.size(), found);
-  }
+  const int found = bytes.starts_with(format_line) ? leading_number(bytes.substr(format_line.size())) : 0;
   require(found >= 1, name, ": is damaged; its first line must be '", format_line, format, "'");
   require(found <= format, name, ": has format ", found, "; this program knows ", format,
           ", take the one that made the session, or a newer one");
@@ -63,7 +61,7 @@ void require_whole_options(std::string_view bytes, const std::string& name) {
 
 bool holds_scans(const fs::path& data) {
   for (const auto& entry : fs::directory_iterator(data)) {
-    for (const char* ending : {".scan", ".damaged"})
+    for (const char* ending : scan_endings)
       if (number_of(entry.path(), ending)) return true;
   }
   return false;
@@ -141,7 +139,8 @@ void SessionFolder::list_files() {
     const fs::path& file = entry.path();
     if (file.extension() == ".tmp") unfinished.push_back(file);
     if (const auto number = number_of(file, ".scan")) scans_.push_back(*number);
-    for (const char* ending : {".scan", ".damaged"})
+    if (const auto number = number_of(file, ".removed")) removed_.insert(*number);
+    for (const char* ending : scan_endings)
       if (const auto number = number_of(file, ending)) known.insert(*number);
     // One whose scan is gone: its number must not be another scan's.
     next_ = std::max(next_, number_of(file, ".located").value_or(-1) + 1);
@@ -228,6 +227,29 @@ void SessionFolder::set_aside(int number, const std::string& why) {
 void SessionFolder::pass_over(int number, const std::string& why) {
   std::erase(scans_, number);
   dropped_.push_back(fmt::format("left out scan {}: {}", number, why));
+}
+
+void SessionFolder::forget_located_from(int number) const {
+  for (int each = number; each < next_; ++each) {
+    std::error_code error;
+    fs::remove(file(each, ".located"), error);
+    if (error) throw Error(fmt::format("{}: cannot be removed: {}", file(each, ".located").string(), error.message()));
+  }
+}
+
+void SessionFolder::remove(int number) {
+  // First: whoever opens the folder after a kill in between registers again and finds the same.
+  forget_located_from(number);
+  rename_and_sync(file(number, ".scan"), file(number, ".removed"));
+  std::erase(scans_, number);
+  removed_.insert(number);
+}
+
+void SessionFolder::restore(int number) {
+  forget_located_from(number);
+  rename_and_sync(file(number, ".removed"), file(number, ".scan"));
+  removed_.erase(number);
+  scans_.insert(std::upper_bound(scans_.begin(), scans_.end(), number), number);
 }
 
 std::string SessionFolder::seal_of_scan(int number) const { return seal_of_file(file(number, ".scan")); }

@@ -48,6 +48,13 @@ class SessionFolder {
   void set_aside(int number, const std::string& why);
   /// Leaves a scan where it is, but out of this session.
   void pass_over(int number, const std::string& why);
+  /// Takes a scan out: its file gets another name and is not read any more. What registration found for it and those
+  /// after it is forgotten. Throws Error where the disk does not let it.
+  void remove(int number);
+  /// Takes remove() back.
+  void restore(int number);
+  /// Numbers of the scans that were taken out, ascending.
+  [[nodiscard]] const std::set<int>& removed() const { return removed_; }
 
   void store_located(int number, const Located& located) const;
   /// What registration found for the scan that has this number now; nothing where that is not known or damaged.
@@ -63,11 +70,13 @@ class SessionFolder {
   void list_files();
   void report_missing(const std::set<int>& known);
   void read_skipped();
+  void forget_located_from(int number) const;
 
   std::filesystem::path path_, data_;
   ScanPlanningOptions options_;
   std::optional<FolderLock> lock_;
   std::vector<int> scans_;
+  std::set<int> removed_;
   int next_ = 0;
   std::map<int, std::string> skipped_;
   std::vector<std::string> dropped_;

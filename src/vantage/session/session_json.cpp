@@ -32,6 +32,7 @@ Json status_json(const SessionStatus& status) {
   for (const auto& [candidate, reason] : status.skipped) {
     json["skipped"].push_back({{"index", candidate}, {"reason", reason}});
   }
+  json["removed"] = status.removed;
   json["left_out"] = Json::array();
   for (const auto& [number, reason] : status.left_out) {
     json["left_out"].push_back({{"number", number}, {"reason", reason}});

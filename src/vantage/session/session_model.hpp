@@ -28,6 +28,9 @@ class SessionModel {
   /// Merges a scan where `known` put it, or else where registration puts it. Returns what registration found.
   Located add(int number, const SessionScan& scan, const std::optional<Located>& known);
 
+  /// When no scan follows: tries those once more that were refused, and improves all poses together.
+  void conclude() { (void)scans_.conclude(*registrar_); }
+
   [[nodiscard]] const ObjectModel& model() const { return scans_.model(); }
   /// Of the scans in the session's folder, in the order of model().scans.
   [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }

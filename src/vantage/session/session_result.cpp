@@ -44,6 +44,7 @@ void Session::finish(const RunPage& page, ForeignFiles foreign) {
     (void)model.add(number, scan, folder_.located(number));
     run.add_scan(model.model().scans.back(), scan.scan, model.model(), nullptr);
   }
+  model.conclude();
   RunSummary summary;
   summary.object = name_of_folder(folder());
   summary.stop_reason = last.why_finished;

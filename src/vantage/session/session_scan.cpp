@@ -131,6 +131,27 @@ void require_pose(const View& view, const std::string& what) {
 /// JSON on one line; bytes that are no UTF-8 are replaced.
 std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+/// A line of JSON that begins with `header`, then the arrays of the scan.
+std::string bytes_of(Json header, const Scan& scan) {
+  std::string arrays;
+  if (const auto* image = std::get_if<ImageScan>(&scan)) {
+    header["camera"] = scan_camera_json(image->image.camera);
+    append(arrays, image->image.depth);
+  } else {
+    const auto& points = std::get<PointScan>(scan);
+    header["points"] = points.points.size();
+    header["normals"] = points.normals.size();
+    header["origins"] = points.origins.size();
+    header["axis"] = numbers(points.axis.data(), 3);
+    append(arrays, points.points);
+    append(arrays, points.normals);
+    append(arrays, points.origins);
+  }
+  std::string bytes = concat(first_word, line(header), "\n");
+  bytes.append(arrays);
+  return bytes;
+}
+
 }  // namespace
 
 void SessionScan::validate() const {
@@ -163,23 +184,11 @@ std::string scan_bytes(const SessionScan& scan) {
   header["believed"] = pose_columns(scan.believed.world_from_sensor);
   if (!scan.key.empty()) header["key"] = scan.key;
   if (scan.commanded) header["commanded"] = pose_columns(scan.commanded->world_from_sensor);
-  std::string arrays;
-  if (const auto* image = std::get_if<ImageScan>(&scan.scan)) {
-    header["camera"] = scan_camera_json(image->image.camera);
-    append(arrays, image->image.depth);
-  } else {
-    const auto& points = std::get<PointScan>(scan.scan);
-    header["points"] = points.points.size();
-    header["normals"] = points.normals.size();
-    header["origins"] = points.origins.size();
-    header["axis"] = numbers(points.axis.data(), 3);
-    append(arrays, points.points);
-    append(arrays, points.normals);
-    append(arrays, points.origins);
-  }
-  std::string bytes = concat(first_word, line(header), "\n");
-  bytes.append(arrays);
-  return bytes;
+  return bytes_of(std::move(header), scan.scan);
+}
+
+std::string measured_bytes(const SessionScan& scan) {
+  return bytes_of({{"believed", pose_columns(scan.believed.world_from_sensor)}}, scan.scan);
 }
 
 SessionScan parse_scan(std::string_view bytes, const std::string& name) {

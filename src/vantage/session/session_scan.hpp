@@ -25,6 +25,9 @@ struct SessionScan {
 
 /// All of a scan as bytes, the numbers to the last bit: a line of JSON, then arrays, little endian.
 [[nodiscard]] std::string scan_bytes(const SessionScan& scan);
+/// What was measured and from where, as bytes: two scans with the same ones are one scan, whatever they are called.
+[[nodiscard]] std::string measured_bytes(const SessionScan& scan);
+
 /// A file of a newer version of the program, which is as it should be.
 class NewerFormat : public Error {
  public:

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/order_statistics.hpp"
 #include "vantage/core/parallel.hpp"
 #include "vantage/sensor/sight_line.hpp"
 #include "vantage/simulation/point_tree.hpp"
@@ -122,8 +123,7 @@ Accuracy GroundTruth::accuracy(const PointCloud& cloud) const {
   for (const double distance : distances) squares += distance * distance;
   const auto count = static_cast<double>(distances.size());
   std::sort(distances.begin(), distances.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count));
-  return {std::sqrt(squares / count), distances[rank - 1], distances.back()};
+  return {std::sqrt(squares / count), sorted_quantile(distances, 0.95), distances.back()};
 }
 
 Completeness GroundTruth::completeness(const PointCloud& cloud, double tolerance) const {

@@ -5,13 +5,13 @@
 namespace vantage {
 
 /// A fresh folder that only we can read; it is removed with everything in it.
-class ScratchFolder {
+class TemporaryFolder {
  public:
   /// Throws Error where none can be made.
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
