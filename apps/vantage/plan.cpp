@@ -104,6 +104,8 @@ void plan(PlanRequest& request) {
   }
   tell_of_scans(planner, scans.model().scans);
   const std::optional<Plan> next = planner.next_best_view(scans.model().map, scans.current());
+  // What is planned is the same with and without a folder; only what is written there is concluded.
+  const std::vector<ScanRecord> planned_on = scans.model().scans;
   RunSummary summary;
   summary.object = description.object;
   summary.stop_reason = next ? "" : planner.why_finished();
@@ -117,7 +119,7 @@ void plan(PlanRequest& request) {
                    request.report ? RunPage(report_page) : RunPage());
   }
   if (request.program.json) {
-    fmt::print("{}\n", ranked_views_json(next, planner.why_finished(), scans.model().scans, request.top).dump(2));
+    fmt::print("{}\n", ranked_views_json(next, planner.why_finished(), planned_on, request.top).dump(2));
   } else {
     print_plan(next, planner.why_finished(), {request.top, request.program.verbose});
     if (folder) fmt::print("written to {}\n", folder->path().string());

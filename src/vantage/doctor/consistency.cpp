@@ -99,8 +99,9 @@ class ComparedFrames {
       } else {
         const Vec3 normal = other_from_frame.linear() * points_[frame].normals[i];
         const bool is_back = normal.dot(point) > behind * point.norm();
-        // The far side of a thin wall lies behind what the other frame sees.
-        const bool is_far_side = is_back && point.z() > seen->most + thin * median;
+        // The far side of a thin wall lies behind what the other frame sees, also where that is the wall's rim.
+        const bool is_far_side =
+            is_back && (point.z() > seen->most + thin * median || seen->most - seen->least > slack);
         ++(is_far_side ? counts.hidden : is_back ? counts.backwards : counts.agrees);
       }
     }

@@ -183,44 +183,50 @@ bool names(const Diagnosis& diagnosis, const test::Mistake& mistake) {
   });
 }
 
+/// Whether the frames still fit each other with the mistake, as a turn or a mirror image of the world.
+bool makes_no_difference(const MadeUp& about, const test::Mistake& mistake) {
+  if (mistake.check == "time") return about.is_ring;  // the whole ring is a step further
+  const bool has_mirror = about.object != "cube" && !about.on_table;
+  if (mistake.fix == "negate the y row") return has_mirror;
+  // Turned about its middle a sphere is the same.
+  const bool turns = mistake.check == "rotation" || mistake.check == "sensor-axes" || mistake.check == "pose-direction";
+  return about.object == "sphere" && !about.on_table && turns && mistake.fix != "divide";
+}
+
+Diagnosis diagnose(const SetOnDisk& set, const DoctorOptions& options) {
+  const TestFolder folder;
+  set.write(folder / "set");
+  return examine(folder / "set", options, [](const std::string&) {});
+}
+
 TEST(DoctorOnMadeUpSets, FindsMistakesAndPassesUntouchedSets) {
-  int untouched = 0, false_findings = 0, pairs = 0, named = 0;
+  std::vector<MadeUp> sets;
   for (const char* object : {"mug", "sphere", "cube", "bottle"}) {
     for (const bool on_table : {false, true}) {
       for (const bool is_ring : {true, false}) {
-        for (const double noise : {0.0, 0.001}) {
-          const MadeUp about{object, on_table, is_ring, noise};
-          const TestFolder images;
-          const SetOnDisk good = made(about, images.path(), 17);
-          const DoctorOptions options;
-          const auto diagnose = [](const SetOnDisk& set, const DoctorOptions& reading) {
-            const TestFolder folder;
-            set.write(folder / "set");
-            return examine(folder / "set", reading, [](const std::string&) {});
-          };
-          const Diagnosis healthy = diagnose(good, options);
-          ++untouched;
-          if (!healthy.healthy()) {
-            ++false_findings;
-            std::cout << about.name() << " untouched:" << said(healthy) << "\n";
-          }
-          if (noise == 0) continue;
-          for (const test::Mistake& mistake : more_mistakes(good, options)) {
-            const Diagnosis diagnosis = diagnose(mistake.set, mistake.options);
-            ++pairs;
-            if (names(diagnosis, mistake))
-              ++named;
-            else
-              std::cout << about.name() << ": missed " << mistake.check << " (" << mistake.fix
-                        << "):" << said(diagnosis) << std::endl;
-          }
-        }
+        for (const double noise : {0.0, 0.001}) sets.push_back({object, on_table, is_ring, noise});
       }
     }
   }
-  std::cout << untouched << " untouched sets, false findings in " << false_findings << "; " << named << " of " << pairs
-            << " mistakes named\n";
-  EXPECT_EQ(false_findings, 0);
+  int pairs = 0, named = 0;
+  for (const MadeUp& about : sets) {
+    const TestFolder images;
+    const SetOnDisk good = made(about, images.path(), 17);
+    const Diagnosis healthy = diagnose(good, {});
+    EXPECT_TRUE(healthy.healthy()) << about.name() << " untouched:" << said(healthy);
+    if (about.noise == 0) continue;
+    for (const test::Mistake& mistake : more_mistakes(good, {})) {
+      if (makes_no_difference(about, mistake)) continue;
+      const Diagnosis diagnosis = diagnose(mistake.set, mistake.options);
+      ++pairs;
+      const bool is_named = names(diagnosis, mistake);
+      named += is_named ? 1 : 0;
+      if (!is_named)
+        std::cout << about.name() << ": missed " << mistake.check << " (" << mistake.fix << "):" << said(diagnosis)
+                  << std::endl;
+    }
+  }
+  std::cout << sets.size() << " untouched sets; " << named << " of " << pairs << " mistakes named\n";
   EXPECT_GE(named, 0.95 * pairs);
 }
 

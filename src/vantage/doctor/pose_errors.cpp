@@ -117,10 +117,12 @@ std::vector<Finding> check_misplaced(const Evidence& evidence, const Reading& re
 /// The frames that alone are off, by name.
 std::vector<Finding> check_frames(const Evidence& evidence, const Reading& reading, double pose_error,
                                   const std::vector<double>& shares, double typical) {
-  // A frame from the other side of a thing shares little, too; one that is off is contradicted as well.
+  // A frame from the other side of a thing shares little, too, as what it sees is hidden from the others; one that is
+  // off is contradicted, or has nothing to do with what the others look at.
   const std::vector<Consistency> fits = consistency_of_frames(evidence, reading);
   const auto is_off = [&](std::size_t i) {
-    return shares[i] < astray * typical && fits[i].contradiction() > contradicted;
+    const bool looks_past = fits[i].looked_at() + fits[i].hidden < nothing_common;
+    return shares[i] < astray * typical && (fits[i].contradiction() > contradicted || looks_past);
   };
   std::vector<double> corrected;
   std::vector<std::size_t> indices(shares.size());
