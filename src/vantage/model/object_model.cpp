@@ -1,6 +1,7 @@
 #include "vantage/model/object_model.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "vantage/model/frame_offset.hpp"
@@ -186,6 +187,34 @@ Doubt without_last(const ObjectModel& model, std::size_t count, const Registrar&
   return doubt;
 }
 
+/// The model that begins with this waiting scan; those that were merged wait.
+Doubt begun_with(int first, const ObjectModel& model, Registrar& registrar, QualityReference quality) {
+  Doubt doubt = without_last(model, model.cloud_growth.size(), registrar, quality);
+  doubt.model.waiting.erase(first);
+  ScanRecord& record = doubt.model.scans[static_cast<std::size_t>(first)];
+  const Scan scan = doubt.model.kept.at(first).scan();
+  const PointCloud points = points_of(scan);
+  const Located located = registrar.locate(doubt.model.surface, scan, points, record.believed);
+  note(record, located);
+  merge(doubt.model, record, scan, points, located, doubt.model.priors.at(first), quality);
+  return doubt;
+}
+
+/// Waiting scans that the model may begin with instead: a few, evenly picked. None where most scans fit, where the
+/// first one is where it is by definition, or while too few more wait than the last time.
+std::vector<int> other_beginnings(const ObjectModel& model) {
+  constexpr std::size_t most = 4;
+  const std::size_t waiting = model.waiting.size();
+  const bool is_time = std::has_single_bit(waiting / refusals_to_doubt);
+  const bool is_exact = model.priors.at(model.cloud_growth.front().first).covariance.isZero(0);
+  if (!is_time || is_exact || 2 * model.cloud_growth.size() > waiting) return {};
+  const std::vector<int> all = numbers_in(model.waiting);
+  std::vector<int> picked;
+  for (std::size_t i = 0; i < std::min(most, waiting); ++i)
+    picked.push_back(all[i * waiting / std::min(most, waiting)]);
+  return picked;
+}
+
 /// Tries waiting scans, whatever they were tried with before.
 void try_all(ObjectModel& model, Registrar& registrar, QualityReference quality, int now) {
   for (auto& [number, waiting] : model.waiting) waiting.known_near = -1;
@@ -193,22 +222,25 @@ void try_all(ObjectModel& model, Registrar& registrar, QualityReference quality,
 }
 
 /// A scan that was put in a wrong place makes those after it contradict the model. Where several have been refused, the
-/// scans that were merged last are doubted: if more come in without them than they are, they were wrong. Returns the
-/// numbers of those that came in.
+/// scans that were merged last are doubted: if more come in without them than they are, they were wrong. Where most are
+/// refused the first scan is doubted: it may show too little for others to be laid on it. Returns the numbers of those
+/// that came in.
 std::vector<int> reconsider(ObjectModel& model, Registrar& registrar, QualityReference quality, int now) {
   const std::vector<int> before = merged_scans(model);
   std::optional<ObjectModel> best;
   std::size_t most = before.size() + 1;
-  for (std::size_t count = 1; count < std::min(before.size(), most_doubted + 1); ++count) {
-    Doubt doubt = without_last(model, count, registrar, quality);
+  const auto consider = [&](Doubt doubt) {
     // First those that were refused: the doubted ones would come in again as they did.
     try_all(doubt.model, registrar, quality, now);
     doubt.model.waiting.merge(doubt.doubted);
     try_all(doubt.model, registrar, quality, now);
-    if (doubt.model.cloud_growth.size() <= most) continue;
+    if (doubt.model.cloud_growth.size() <= most) return;
     most = doubt.model.cloud_growth.size();
     best = std::move(doubt.model);
-  }
+  };
+  for (std::size_t count = 1; count < std::min(before.size(), most_doubted + 1); ++count)
+    consider(without_last(model, count, registrar, quality));
+  for (const int first : other_beginnings(model)) consider(begun_with(first, model, registrar, quality));
   if (!best) return {};
   model = *std::move(best);
   std::vector<int> came_in;

@@ -33,7 +33,8 @@ class KnownSurface {
   KnownSurface(const VoxelMap& map, const SensorModel& sensor);
 
   /// Of a scan from `view` that sees these voxels (those without a normal say nothing), if the robot ends up there with
-  /// this error. One vote per voxel: what the points in it have in common does not average out.
+  /// this error. One vote per voxel: what the points in it have in common does not average out. The probability is that
+  /// the scan is accepted and misplaces less than half a voxel, as measured.
   [[nodiscard]] Registrability registrability(const View& view, std::span<const Index3> seen,
                                               const PoseError& error) const;
 
