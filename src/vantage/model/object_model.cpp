@@ -97,6 +97,30 @@ void improve(ObjectModel& model, const Registrar& registrar, QualityReference qu
   make_again(model, merged_scans(model), registrar, quality);
 }
 
+/// Lays all scans on each other anew from where they are now, which is better known than when each came in, and
+/// improves their poses together; until they hardly move.
+void lay_again(ObjectModel& model, const Registrar& registrar) {
+  constexpr int most_rounds = 3;
+  constexpr std::size_t most_scans = 100;  // whose surfaces a graph keeps; of more the poses stay as they are
+  const std::vector<int> order = merged_scans(model);
+  if (order.size() > most_scans) return;
+  for (int round = 0; round < most_rounds; ++round) {
+    ScanGraph graph;
+    for (const int number : order) {
+      const ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
+      const Scan scan = model.kept.at(number).scan();
+      const auto surface = registrar.surface_of(scan, points_of(scan), record.believed);
+      if (surface) graph.add(number, *surface, model.priors.at(number), record.registered.world_from_sensor);
+    }
+    const ScanGraph::Improved improved = graph.improve();
+    graph.accept(improved);
+    model.graph = std::move(graph);
+    for (const auto& [number, pose] : improved.world_from_sensor)
+      model.scans[static_cast<std::size_t>(number)].registered = View{pose};
+    if (improved.largest_move <= least_move * model.map.grid().length) break;
+  }
+}
+
 /// What the robot says of a pose, brought into the frame of the model.
 PoseEstimate in_model(const ObjectModel& model, const PoseEstimate& in_robot) {
   std::vector<FoundPose> found;
@@ -314,6 +338,10 @@ std::vector<int> conclude(ObjectModel& model, Registrar& registrar, QualityRefer
   ScanRecord& record = model.scans.back();
   record.recovered.insert(record.recovered.end(), came_in.begin(), came_in.end());
   improve(model, registrar, quality, least_move * model.map.grid().length);
+  if (model.improves_poses && model.graph.size() > 1) {
+    lay_again(model, registrar);
+    make_again(model, merged_scans(model), registrar, quality);
+  }
   note_map(model.scans.back(), model.map);
   return came_in;
 }

@@ -13,19 +13,17 @@ namespace {
 constexpr double points_per_voxel = 4;  // along an edge, that the fused cloud keeps
 constexpr std::size_t views_at_a_time = 16;
 
-/// Chance that registration accepts a scan that sees so many known voxels, if their planes determine its pose: noise
-/// of the normals makes directions count as open where few take part, and verdicts are careful. Fitted to 889 scans of
-/// 140 runs of `experiment robustness` (docs/registration.md), of seven objects and two errors; below 200 voxels none of
-/// 21 was accepted, which says that it is rare, not that it never happens.
-double chance_of_acceptance(int known_voxels) {
-  constexpr double most = 0.94, offset = 13.4, slope = 226.5, least = 0.06;
-  const double chance = most / (1 + std::exp(slope / std::sqrt(known_voxels + 1.0) - offset));
-  return std::max(least, chance);
-}
-
 double standard_normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 }  // namespace
+
+double chance_of_acceptance(const Visibility& seen) {
+  constexpr double most = 0.969, offset = 15.9, by_root_of_count = 271.6, by_overlap = 1.1, least = 0.06;
+  const auto known = static_cast<double>(seen.occupied);
+  const double overlap = known / std::max(1.0, known + static_cast<double>(seen.occplane));
+  const double chance = most / (1 + std::exp(by_root_of_count / std::sqrt(known + 1) - offset - by_overlap * overlap));
+  return std::max(least, chance);
+}
 
 PoseError::Vector effect_of_error(const View& view, const Vec3& point, const Vec3& normal) {
   const Vec3 turn = view.world_from_sensor.linear().transpose() * (point - view.position()).cross(normal);
@@ -70,15 +68,12 @@ PoseError::Matrix KnownSurface::mean_effect(const View& view) const {
 
 Registrability KnownSurface::registrability(const View& view, std::span<const Index3> seen,
                                             const PoseError& error) const {
-  if (error.covariance.isZero(0)) return {};  // nothing has to be found
   const double voxel = map_.grid().length;
   const double rounding = voxel / points_per_voxel / std::sqrt(12.0);
   PoseError::Matrix information = PoseError::Matrix::Zero();
-  int known_voxels = 0;
   for (const Index3& index : seen) {
     const SurfaceVoxel* surface = map_.surface(index);
     if (surface == nullptr) continue;
-    ++known_voxels;
     const Vec3 normal = surface->normal();
     if (normal.isZero(0)) continue;
     const Vec3 point = map_.grid().center(index);
@@ -93,7 +88,7 @@ Registrability KnownSurface::registrability(const View& view, std::span<const In
   const PoseError::Matrix covariance = posterior_covariance(error.covariance, information);
   const PoseError::Matrix weights = mean_effect(view);
   const double limit = voxel / 2;
-  return {chance_of_acceptance(known_voxels) * probability_below(weights, covariance, limit * limit),
+  return {probability_below(weights, covariance, limit * limit),
           std::sqrt(std::max(0.0, (weights * covariance).trace()))};
 }
 
@@ -121,7 +116,9 @@ RegistrableViews rank_by_registrability(const ViewEvaluation& problem, std::vect
       Evaluation& each = ranked[begin + i];
       const std::vector<Index3> seen =
           problem.visibility.visible_voxels(problem.camera, each.view, problem.ideal(each.candidate));
-      each.registrability = surface.registrability(each.view, seen, options.error->of_move(problem.current, each.view));
+      const PoseError error = options.error->of_move(problem.current, each.view);
+      each.registrability = surface.registrability(each.view, seen, error);
+      if (!error.covariance.isZero(0)) each.registrability->probability *= chance_of_acceptance(each.seen);
       if (each.score > 0) each.score *= each.registrability->probability;
     });
     for (std::size_t i = begin; i < end; ++i) {
