@@ -140,9 +140,10 @@ if(VANTAGE_APPS)
   set_tests_properties(session.http.slow PROPERTIES LABELS slow TIMEOUT 2400)
 endif()
 
-# The same scans as data sets and bags give the same plan; memory does not grow with the length of a recording.
+# The same scans as data sets and bags give the same plan; memory does not grow with the length of a recording; frames
+# may come in any order.
 if(VANTAGE_APPS)
-  foreach(test same_plan memory)
+  foreach(test same_plan memory order)
     add_test(NAME recordings.${test} COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/recordings/${test}_test.py
       $<TARGET_FILE:vantage> ${VANTAGE_SHARED_DATA} 3)
     set_tests_properties(recordings.${test} PROPERTIES LABELS slow TIMEOUT 1200)
