@@ -196,10 +196,16 @@ TEST(Tour, SaysItsStopsWithTheFirstViewOfTheHighestScore) {
 }
 
 TEST(Tour, NamesBadOptions) {
-  EXPECT_THROW((void)tour_utility({.left = 1}), InputError);
-  EXPECT_THROW((void)tour_utility({.price = 0}), InputError);
-  EXPECT_THROW((void)tour_utility({.most_views = 0}), InputError);
-  EXPECT_THROW((void)tour_utility({.time = {.speed = 0}}), InputError);
+  const auto refuses = [](const auto& change) {
+    TourOptions options;
+    change(options);
+    EXPECT_THROW((void)tour_utility(options), InputError);
+  };
+  refuses([](TourOptions& o) { o.left = 1; });
+  refuses([](TourOptions& o) { o.price = 0; });
+  refuses([](TourOptions& o) { o.most_views = 0; });
+  refuses([](TourOptions& o) { o.time.speed = 0; });
+  refuses([](TourOptions& o) { o.gain.floor_step = 1; });
 }
 
 }  // namespace
