@@ -32,7 +32,7 @@ struct EvaluateRequest {
 /// Every candidate, infeasible ones too, in the order of their indices.
 std::vector<Evaluation> evaluate_all(const VoxelMap& map, const Planner& planner, const View& current) {
   const VisibilityEvaluator visibility(map);
-  const Utility utility = utility_by_name(planner.options().utility);
+  const Utility utility = planner.options().make_utility();
   const ViewEvaluation problem{map,
                                visibility,
                                planner.camera(),

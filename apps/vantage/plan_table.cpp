@@ -104,6 +104,16 @@ void print_move(const Move& move) {
   }
 }
 
+void print_tour(const std::vector<TourStop>& tour) {
+  if (tour.empty()) return;
+  fmt::print("  the rest of the scan, expected to end after {} views and {:.0f} s:\n", tour.size(),
+             tour.back().seconds);
+  for (const TourStop& stop : tour) {
+    fmt::print("    view {:>4} after {:>6.1f} s: {:>5.1f} % of the expected surface\n", stop.candidate, stop.seconds,
+               100 * stop.covered);
+  }
+}
+
 void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, const PlanTableOptions& options) {
   if (!plan) {
     fmt::print("nothing left to plan: {}\n", printable(why_finished));
@@ -114,6 +124,7 @@ void print_plan(const std::optional<Plan>& plan, const std::string& why_finished
   fmt::print("  pose (x y z qx qy qz qw, world from sensor): {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}\n",
              pose[0], pose[1], pose[2], pose[3], pose[4], pose[5], pose[6]);
   if (plan->move.possible()) print_move(plan->move);
+  print_tour(plan->tour);
   fmt::print("\n");
   std::vector<Evaluation> all = plan->ranking;
   all.insert(all.end(), plan->infeasible.begin(), plan->infeasible.end());

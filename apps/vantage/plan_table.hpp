@@ -31,6 +31,8 @@ void print_scan_set(const ScanSet& set);
 
 /// The corner places of a move; joints in radians and metres.
 void print_move(const Move& move);
+/// The rest of the scan, view by view; nothing where none is planned.
+void print_tour(const std::vector<TourStop>& tour);
 
 /// The next best view with its reason and the views ranked after it, or why there is none.
 void print_plan(const std::optional<Plan>& plan, const std::string& why_finished, const PlanTableOptions& options);

@@ -18,7 +18,7 @@ std::vector<OptionField> planner_fields(ReconstructOptions& options) {
                              "believed-growth", "convolve", "error-candidates", "error-samples", "least-overlap"});
   std::erase_if(names, [](const std::string& name) {
     return name == "camera" || name == "candidates" || name == "depth-range" || name == "max-incidence" ||
-           name == "utility";
+           name == "utility" || name == "plan";
   });
   return fields_named(option_fields(options), names);
 }

@@ -381,6 +381,8 @@ class Planner:
         multi_resolution_b = 10: b of eq. 16
         multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
         multi_resolution_columns = 40: columns of the coarsest stage, R_min
+        scan_time = 3 [s]: of tours: what a scan takes
+        speed = 0.5 [m/s]: of tours: how fast the robot moves
         alpha_oc = 0.2: desired share of occupied voxels, eq. 7
         alpha_op = 0.8: desired share of occplane voxels, eq. 7
         rho = 0.2: navigation factor of the farthest view, eq. 10
@@ -648,7 +650,10 @@ def simulate(object: Union[str, TriangleMesh], on_scan: Optional[Callable[[ScanR
         multi_resolution_b = 10: b of eq. 16
         multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
         multi_resolution_columns = 40: columns of the coarsest stage, R_min
-        utility = combined: how views are judged: combined, gua, gain, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+        utility = combined: how views are judged: combined, gua, gain, tour, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+        plan = view: view: the next view by the utility; tour: the fastest tour over the rest of the scan, of which the first view is next, as the utility tour
+        scan_time = 3 [s]: of tours: what a scan takes
+        speed = 0.5 [m/s]: of tours: how fast the robot moves
         alpha_oc = 0.2: desired share of occupied voxels, eq. 7
         alpha_op = 0.8: desired share of occplane voxels, eq. 7
         rho = 0.2: navigation factor of the farthest view, eq. 10
@@ -782,7 +787,10 @@ class ScanModel:
         multi_resolution_b = 10: b of eq. 16
         multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
         multi_resolution_columns = 40: columns of the coarsest stage, R_min
-        utility = combined: how views are judged: combined, gua, gain, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+        utility = combined: how views are judged: combined, gua, gain, tour, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+        plan = view: view: the next view by the utility; tour: the fastest tour over the rest of the scan, of which the first view is next, as the utility tour
+        scan_time = 3 [s]: of tours: what a scan takes
+        speed = 0.5 [m/s]: of tours: how fast the robot moves
         alpha_oc = 0.2: desired share of occupied voxels, eq. 7
         alpha_op = 0.8: desired share of occplane voxels, eq. 7
         rho = 0.2: navigation factor of the farthest view, eq. 10
@@ -867,7 +875,10 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         multi_resolution_b = 10: b of eq. 16
         multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
         multi_resolution_columns = 40: columns of the coarsest stage, R_min
-        utility = combined: how views are judged: combined, gua, gain, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+        utility = combined: how views are judged: combined, gua, gain, tour, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+        plan = view: view: the next view by the utility; tour: the fastest tour over the rest of the scan, of which the first view is next, as the utility tour
+        scan_time = 3 [s]: of tours: what a scan takes
+        speed = 0.5 [m/s]: of tours: how fast the robot moves
         alpha_oc = 0.2: desired share of occupied voxels, eq. 7
         alpha_op = 0.8: desired share of occplane voxels, eq. 7
         rho = 0.2: navigation factor of the farthest view, eq. 10
@@ -992,8 +1003,10 @@ class Session:
             multi_resolution_b = 10: b of eq. 16
             multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
             multi_resolution_columns = 40: columns of the coarsest stage, R_min
-            utility = combined: how views are judged: combined, gua, gain, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
-            alpha_oc = 0.2: desired share of occupied voxels, eq. 7
+            utility = combined: how views are judged: combined, gua, gain, tour, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+            scan_time = 3 [s]: of tours: what a scan takes
+        speed = 0.5 [m/s]: of tours: how fast the robot moves
+        alpha_oc = 0.2: desired share of occupied voxels, eq. 7
             alpha_op = 0.8: desired share of occplane voxels, eq. 7
             rho = 0.2: navigation factor of the farthest view, eq. 10
             navigation = true: use the navigation factor

@@ -27,6 +27,7 @@ struct Comparison {
   int budget = 0;
   std::string conditions;
   std::string coverage;  // the list of a run's outcome that its goals are of
+  RobotTime time;
 };
 
 /// At the size that the protocol gives all objects, if it does.
@@ -117,7 +118,8 @@ Comparison add_runs(Experiment& experiment, const ExperimentOptions& options) {
                         {},
                         options.compare.budget(),
                         conditions_text(options.compare),
-                        protocol_by_name(options.compare.protocol).metric ? "point_coverage" : "coverage"};
+                        protocol_by_name(options.compare.protocol).metric ? "point_coverage" : "coverage",
+                        options.compare.time};
   for (const auto& object : comparison.objects) {
     std::vector<RunGroup> of_object;
     for (const std::string& method : comparison.methods) {
@@ -179,6 +181,8 @@ ExperimentTable table_of(const Comparison& comparison, const Measures& methods, 
   table.columns.push_back({"mean rank", 2});
   table.columns.push_back({"distance to 99 % [m]", 1});
   table.columns.push_back({"difference [m]", 1, Kind::difference});
+  table.columns.push_back({"time to 99 % [s]", 1});
+  table.columns.push_back({"difference [s]", 1, Kind::difference});
   table.columns.push_back({"area under curve [%]", 2});
   table.columns.push_back({"least overlap", 2});
   table.columns.push_back({"mean overlap", 2});
@@ -200,6 +204,9 @@ ExperimentTable table_of(const Comparison& comparison, const Measures& methods, 
     row.cells.emplace_back(fmt::format("{:.2f}", ranks[m]));
     row.cells.emplace_back(estimate(pick(runs, distance)));
     row.cells.push_back(difference(distance));
+    const auto seconds = [](const CompareMeasures& c) { return c.seconds; };
+    row.cells.emplace_back(estimate(pick(runs, seconds)));
+    row.cells.push_back(difference(seconds));
     row.cells.emplace_back(estimate(pick(runs, [](const CompareMeasures& c) { return c.area_under_curve; })));
     const std::vector<double> overlaps = pick(runs, [](const CompareMeasures& c) { return c.min_overlap; });
     row.cells.emplace_back(fmt::format("{:.3f}", *std::min_element(overlaps.begin(), overlaps.end())));
@@ -273,7 +280,7 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
     for (const auto& method : runs) {
       std::vector<CompareMeasures> of_method;
       for (const RunOutcome& run : method)
-        of_method.push_back(measure_run(run, comparison.budget, comparison.coverage));
+        of_method.push_back(measure_run(run, comparison.budget, comparison.coverage, comparison.time));
       measures.push_back(std::move(of_method));
     }
     figure.plots.emplace_back(coverage_chart(comparison, comparison.objects[k]->name(), runs, measures));
@@ -295,12 +302,15 @@ std::vector<ExperimentReport::Part> report_of(const Comparison& comparison, cons
   all.name = "compare";
   all.title = fmt::format("All {} objects", objects.size());
   all.note = fmt::format(
-      "{} Views, distances and misses are summed over the objects, the rest are means (least overlap: the least). "
+      "{} Views, distances, times and misses are summed over the objects, the rest are means (least overlap: the "
+      "least). "
       "Means over "
       "{} starts with standard deviation; differences from {} with 95 % intervals, paired by start; missed: runs that "
       "do not come to 99 %. A run that misses a goal "
-      "counts with its budget of {} views. Ranks by views to 99 %, over objects and starts.",
-      comparison.conditions, starts, comparison.methods.front(), comparison.budget);
+      "counts with its budget of {} views. Times count {} s per scan and the path at {} m/s. Ranks by views to 99 %, "
+      "over objects and starts.",
+      comparison.conditions, starts, comparison.methods.front(), comparison.budget, comparison.time.scan,
+      comparison.time.speed);
   add_tables(parts, all);
   parts.emplace_back(std::move(figure));
   for (std::size_t k = 0; k < objects.size(); ++k) {

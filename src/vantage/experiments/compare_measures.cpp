@@ -5,7 +5,7 @@
 
 namespace vantage {
 
-CompareMeasures measure_run(const RunOutcome& outcome, int budget, const std::string& covered) {
+CompareMeasures measure_run(const RunOutcome& outcome, int budget, const std::string& covered, const RobotTime& time) {
   const std::vector<double>& coverage = outcome.list(covered);
   CompareMeasures result;
   std::size_t last = coverage.size();  // scans up to the last goal
@@ -19,6 +19,7 @@ CompareMeasures measure_run(const RunOutcome& outcome, int budget, const std::st
     if (is_reached) last = static_cast<std::size_t>(reached - coverage.begin()) + 1;
   }
   result.distance = outcome.list("distance")[last - 1];
+  result.seconds = time.scan * result.views.back() + result.distance / time.speed;
   for (std::size_t scan = 1; scan <= CompareMeasures::curve_length; ++scan) {
     result.area_under_curve += 100 * after_scan(outcome, covered, scan) / CompareMeasures::curve_length;
   }
@@ -42,6 +43,7 @@ CompareMeasures over_objects(const std::vector<CompareMeasures>& objects) {
   for (const CompareMeasures& each : objects) {
     for (std::size_t g = 0; g < sum.views.size(); ++g) sum.views[g] += each.views[g];
     sum.distance += each.distance;
+    sum.seconds += each.seconds;
     sum.missed += each.missed;
     sum.area_under_curve += each.area_under_curve / count;
     sum.min_overlap = std::min(sum.min_overlap, each.min_overlap);

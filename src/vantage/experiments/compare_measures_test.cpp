@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "vantage/core/error.hpp"
+
 namespace vantage {
 namespace {
 
@@ -20,6 +22,7 @@ TEST(CompareMeasures, CountScansUpToTheGoals) {
   const CompareMeasures run = measure_run(outcome({0.5, 0.96, 0.991, 0.995}), 25, "coverage");
   EXPECT_EQ(run.views, (std::array<double, 4>{2, 2, 3, 3}));
   EXPECT_EQ(run.distance, 5);
+  EXPECT_EQ(run.seconds, 3 * 3 + 5 / 0.5);
   EXPECT_EQ(run.missed, 0);
   EXPECT_EQ(run.min_overlap, 0.2) << "the fourth scan came after the goal";
   EXPECT_DOUBLE_EQ(run.mean_overlap, 0.3);
@@ -27,11 +30,19 @@ TEST(CompareMeasures, CountScansUpToTheGoals) {
   EXPECT_NEAR(run.area_under_curve, 100 * (0.5 + 0.96 + 0.991 + 17 * 0.995) / 20, 1e-9);
 }
 
+TEST(CompareMeasures, CountTheRobotsTimeForScansAndPath) {
+  const RobotTime slow{.scan = 10, .speed = 0.25};
+  EXPECT_EQ(measure_run(outcome({0.5, 0.96, 0.991, 0.995}), 25, "coverage", slow).seconds, 3 * 10 + 5 / 0.25);
+  EXPECT_THROW((RobotTime{.scan = -1}.validate()), InputError);
+  EXPECT_THROW((RobotTime{.speed = 0}.validate()), InputError);
+}
+
 TEST(CompareMeasures, CountTheBudgetWhereAGoalIsMissed) {
   const CompareMeasures run = measure_run(outcome({0.5, 0.8, 0.91, 0.92}), 25, "coverage");
   EXPECT_EQ(run.views, (std::array<double, 4>{3, 25, 25, 25}));
   EXPECT_EQ(run.distance, 9);
   EXPECT_EQ(run.missed, 1);
+  EXPECT_EQ(run.seconds, 25 * 3 + 9 / 0.5);
   EXPECT_EQ(run.min_overlap, 0.1);
 }
 

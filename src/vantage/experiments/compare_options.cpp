@@ -54,6 +54,7 @@ void CompareOptions::validate() const {
   require(external_timeout > 0 && std::isfinite(external_timeout), "external-timeout = ", external_timeout,
           " s: must be positive");
   require(budget() >= 2 && budget() <= 200, "compare-max-views = ", budget(), ": must be in 2..200");
+  time.validate();
   run_options().validate();
 }
 
@@ -63,6 +64,8 @@ ReconstructOptions CompareOptions::run_options() const {
   options.positioning_error = positioning_error;
   options.registration = registration;
   options.max_views = budget();
+  options.scan_time = time.scan;
+  options.speed = time.speed;
   protocol_by_name(protocol).set(options);
   return options;
 }

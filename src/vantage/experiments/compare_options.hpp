@@ -21,6 +21,7 @@ struct CompareOptions {
   std::string registration = "truth";
   std::string protocol = "paper";
   std::optional<int> max_views;
+  RobotTime time;
 
   /// Throws InputError naming the option.
   void validate() const;
@@ -46,6 +47,8 @@ void describe(CompareOptions& o, Field&& field) {
   field("compare-positioning-error", o.positioning_error, "m", "of compare: standard deviation per axis");
   field("compare-registration", o.registration, "", "of compare: truth, none or icp");
   field("protocol", o.protocol, "", "of compare: " + names_of_protocols() + " (docs/methods.md)");
+  field("compare-scan-time", o.time.scan, "s", "of compare: what a scan counts in the time to 99 %");
+  field("compare-speed", o.time.speed, "m/s", "of compare: the speed of the path in the time to 99 %");
   field("compare-max-views", o.max_views, "", "of compare: scans after which a run ends; the protocol's if not given");
 }
 

@@ -75,6 +75,9 @@ std::vector<std::string> planning_option_names() {
           "multi-resolution-stages",
           "multi-resolution-columns",
           "utility",
+          "plan",
+          "scan-time",
+          "speed",
           "alpha-oc",
           "alpha-op",
           "rho",
@@ -125,7 +128,11 @@ PlannerOptions ReconstructOptions::planner_options() const {
   result.search = search == "exhaustive" ? SearchKind::exhaustive : SearchKind::multi_resolution;
   result.rays = rays_from_text(rays);
   result.multi_resolution = {multi_resolution_b, multi_resolution_stages, multi_resolution_columns};
-  result.utility = utility;
+  require_one_of("plan", plan, {"view", "tour"});
+  require(plan == "view" || utility == "combined" || utility == "tour",
+          "plan = tour: chooses by the tour, and utility = ", utility, " by something else; leave one of them out");
+  result.utility = plan == "tour" ? "tour" : utility;
+  result.tour.time = {scan_time, speed};
   result.seed = seed;
   result.factors = {alpha_oc, alpha_op, rho, navigation};
   result.reach = reach_options();

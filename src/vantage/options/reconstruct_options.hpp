@@ -50,6 +50,9 @@ struct ReconstructOptions : ErrorOptions {
   int multi_resolution_columns = 40;
 
   std::string utility = "combined";
+  std::string plan = "view";
+  double scan_time = 3;
+  double speed = 0.5;
   double alpha_oc = 0.2;
   double alpha_op = 0.8;
   double rho = 0.2;
@@ -122,6 +125,12 @@ void describe(ReconstructOptions& o, Field&& field) {
   field("multi-resolution-stages", o.multi_resolution_stages, "", "k; by default the smallest with b^k >= |V|");
   field("multi-resolution-columns", o.multi_resolution_columns, "", "columns of the coarsest stage, R_min");
   field("utility", o.utility, "", "how views are judged: " + names_of_utilities());
+  field("plan", o.plan, "",
+        "view: the next view by the utility; tour: the fastest tour over the rest of the scan, of which the first view "
+        "is "
+        "next, as the utility tour");
+  field("scan-time", o.scan_time, "s", "of tours: what a scan takes");
+  field("speed", o.speed, "m/s", "of tours: how fast the robot moves");
   field("alpha-oc", o.alpha_oc, "", "desired share of occupied voxels, eq. 7");
   field("alpha-op", o.alpha_op, "", "desired share of occplane voxels, eq. 7");
   field("rho", o.rho, "", "navigation factor of the farthest view, eq. 10");

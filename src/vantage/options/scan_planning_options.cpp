@@ -5,6 +5,17 @@
 
 namespace vantage {
 
+namespace {
+
+/// Who is asked for one plan can also be told the rest of the scan.
+PlannerOptions telling(const ReconstructOptions& planning) {
+  PlannerOptions options = planning.planner_options();
+  options.tells_tour = true;
+  return options;
+}
+
+}  // namespace
+
 void ScanPlanningOptions::validate() const {
   scene.validate();
   reading.validate();
@@ -40,10 +51,10 @@ RangeCamera ScanPlanningOptions::camera(const std::optional<RangeCamera>& of_sca
 }
 
 Planner ScanPlanningOptions::planner(const Candidates& candidates, const std::optional<RangeCamera>& of_scans) const {
-  if (!planning.robot || planning.robot_model) return Planner(candidates, camera(of_scans), planning.planner_options());
+  if (!planning.robot || planning.robot_model) return Planner(candidates, camera(of_scans), telling(planning));
   ScanPlanningOptions copy = *this;
   copy.load_robot_model();
-  return Planner(candidates, camera(of_scans), copy.planning.planner_options());
+  return Planner(candidates, camera(of_scans), telling(copy.planning));
 }
 
 void ScanPlanningOptions::load_robot_model() {

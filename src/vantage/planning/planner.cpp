@@ -63,7 +63,7 @@ void PlannerOptions::validate() const {
           "of them out");
   require(deadline == 0 || !believed_error, "deadline = ", deadline,
           " ms: planning with the robot's error (convolve) needs the utility of every view; leave one of them out");
-  (void)utility_by_name(utility);
+  (void)make_utility();
   convolution.validate();
   expectation.validate();
   if (registrability) registrability->validate();
@@ -73,8 +73,12 @@ void PlannerOptions::validate() const {
           "not with multi-resolution, which evaluates only some views to the end; sampled poses go with both");
 }
 
+Utility PlannerOptions::make_utility() const {
+  return utility == "tour" ? tour_utility(tour) : utility_by_name(utility);
+}
+
 Planner::Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options)
-    : Planner(std::move(candidates), camera, options, utility_by_name(options.utility)) {}
+    : Planner(std::move(candidates), camera, options, options.make_utility()) {}
 
 Planner::Planner(Candidates candidates, const RangeCamera& camera, const PlannerOptions& options, Utility utility)
     : candidates_(std::move(candidates)), camera_(camera), options_(options), utility_(std::move(utility)) {
@@ -187,6 +191,7 @@ std::optional<Plan> Planner::next_best_view(const VoxelMap& map, const View& cur
   plan.largest_cost = moves.largest_cost();
   plan.ranking = search(problem, feasible, start);
   if (!meets_occplane(plan.ranking, options_.stop_occplane)) return finished();
+  if (options_.tells_tour) plan.tour = problem.tour(plan.ranking);
   if (options_.believed_error) expect_errors(plan, problem, map);
   if (options_.registrability && options_.registrability->error && options_.deadline == 0) {
     std::optional<Plan> ranked = registrable(std::move(plan), problem, *options_.registrability);

@@ -14,6 +14,7 @@
 #include "vantage/search/expected_utility.hpp"
 #include "vantage/search/search.hpp"
 #include "vantage/utility/registry.hpp"
+#include "vantage/utility/tour.hpp"
 
 namespace vantage {
 
@@ -30,6 +31,8 @@ struct PlannerOptions {
   RayChoice rays;  // of the exhaustive search
   MultiResolutionOptions multi_resolution;
   std::string utility = "combined";  // see utility_by_name
+  TourOptions tour;                  // of the utility `tour`
+  bool tells_tour = false;           // plans say the rest of the scan too, where the utility plans it
   UtilityOptions factors;
   ReachOptions reach;
   /// The robot, besides `reach`: only views that it can reach are planned, each with the way there. None: a free flyer
@@ -54,6 +57,8 @@ struct PlannerOptions {
   std::uint64_t seed = 1;  // of utilities that draw
 
   void validate() const;
+  /// What the options judge views by. Throws InputError naming the option.
+  [[nodiscard]] Utility make_utility() const;
 };
 
 /// The next best view with all that led to it.
@@ -65,6 +70,8 @@ struct Plan {
   std::size_t feasible = 0;            // candidates that could be chosen; more than are ranked where time ran out
   double largest_cost = 0;             // of moves to them, which x of eq. 10 refers to; 0 where it is an angle
   std::string explanation;             // one sentence for people
+  std::vector<TourStop> tour;          // the rest of the scan, where it was asked for; the best view need not be its
+                                       // first where the robot cannot get there
 };
 
 /// Plans one view after the other (paper, sections 3 to 6): feasible, evaluate, rank, explain.

@@ -67,6 +67,10 @@ nlohmann::ordered_json ranked_views_json(const std::optional<Plan>& plan, const 
       json["infeasible"].push_back({{"index", each.candidate}, {"reason", each.reason}});
     }
   }
+  json["tour"] = nlohmann::ordered_json::array();
+  for (const TourStop& stop : plan ? plan->tour : std::vector<TourStop>()) {
+    json["tour"].push_back({{"index", stop.candidate}, {"seconds", stop.seconds}, {"covered", stop.covered}});
+  }
   json["scans"] = nlohmann::ordered_json::array();
   for (const ScanRecord& record : scans) json["scans"].push_back(scan_json(record));
   return json;

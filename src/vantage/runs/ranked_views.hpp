@@ -19,7 +19,7 @@ namespace vantage {
 
 /// What `plan --json` and `session next --json` print: the next best view or null, the move there, why, the `top` best
 /// views in rank with their poses (x y z qx qy qz qw, world from sensor), the candidates that fell out with the reason,
-/// and a record of each scan.
+/// the tour over the rest of the scan where one is planned, and a record of each scan.
 [[nodiscard]] nlohmann::ordered_json ranked_views_json(const std::optional<Plan>& plan, const std::string& why_finished,
                                                        std::span<const ScanRecord> scans, int top);
 

@@ -68,6 +68,23 @@ Evaluation ViewEvaluation::with_cost(Evaluation result, double cost) const {
 
 void ViewEvaluation::score(std::vector<Evaluation>& evaluations,
                            std::optional<std::chrono::steady_clock::time_point> deadline) const {
+  const std::vector<ViewToJudge> views = to_judge(evaluations);
+  const std::vector<double> scores = judge(utility, choice(views, deadline));
+  for (std::size_t i = 0; i < scores.size(); ++i) evaluations[i].score = evaluations[i].utility = scores[i];
+}
+
+Choice ViewEvaluation::choice(std::span<const ViewToJudge> views,
+                              std::optional<std::chrono::steady_clock::time_point> deadline) const {
+  return {map, visibility, camera, current, scanned, seed, views, deadline, refused, travel};
+}
+
+std::vector<TourStop> ViewEvaluation::tour(const std::vector<Evaluation>& evaluations) const {
+  if (!utility.tour) return {};
+  const std::vector<ViewToJudge> views = to_judge(evaluations);
+  return utility.tour(choice(views, std::nullopt));
+}
+
+std::vector<ViewToJudge> ViewEvaluation::to_judge(const std::vector<Evaluation>& evaluations) const {
   // What judges by counts asks nothing about rays, and views may be too far off to have ideal ones.
   const bool needs_ideal = !std::holds_alternative<CountUtility>(utility.score);
   std::vector<ViewToJudge> views;
@@ -76,9 +93,7 @@ void ViewEvaluation::score(std::vector<Evaluation>& evaluations,
     views.push_back({each.candidate, each.view, each.resolution, needs_ideal ? ideal(each.candidate) : each.resolution,
                      normalised_cost(each.candidate), each.seen, each.factors});
   }
-  const std::vector<double> scores =
-      judge(utility, {map, visibility, camera, current, scanned, seed, views, deadline, refused});
-  for (std::size_t i = 0; i < scores.size(); ++i) evaluations[i].score = evaluations[i].utility = scores[i];
+  return views;
 }
 
 std::vector<Evaluation> ViewEvaluation::evaluate(std::span<const int> candidate_indices,

@@ -87,11 +87,16 @@ struct ViewEvaluation {
   /// Scores them until the deadline, the first ones first: only those that the utility had time for.
   [[nodiscard]] std::vector<Evaluation> judge_until(std::chrono::steady_clock::time_point deadline,
                                                     std::vector<Evaluation> evaluations) const;
+  /// The rest of the scan over these views, where the utility plans that; else empty.
+  [[nodiscard]] std::vector<TourStop> tour(const std::vector<Evaluation>& evaluations) const;
   /// The same view where the move there has another x of eq. 10.
   [[nodiscard]] Evaluation with_cost(Evaluation evaluation, double normalised_cost) const;
 
  private:
   [[nodiscard]] Evaluation evaluation(int candidate, Resolution resolution, const Visibility& seen) const;
+  [[nodiscard]] std::vector<ViewToJudge> to_judge(const std::vector<Evaluation>& evaluations) const;
+  [[nodiscard]] Choice choice(std::span<const ViewToJudge> views,
+                              std::optional<std::chrono::steady_clock::time_point> deadline) const;
   /// Fills in utility and score.
   void score(std::vector<Evaluation>& evaluations,
              std::optional<std::chrono::steady_clock::time_point> deadline = {}) const;

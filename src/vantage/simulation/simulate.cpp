@@ -63,7 +63,7 @@ SimulatedRun simulate(const SimulatedObject& object, const ReconstructOptions& o
   SimulatedRun run{ObjectModel(options.scene_options(), options.point_spacing()), {}};
   run.model.sensor = options.sensor_model();
   Planner planner(options.candidate_views(), options.range_camera(), options.planner_options(),
-                  utility ? *utility : utility_by_name(options.utility));
+                  utility ? *utility : options.planner_options().make_utility());
   const ReachOptions reach = options.planner_options().reach;
   SimulatedRobot robot(object.scanner(), options.range_camera(), simulated_robot_options(options), options.seed,
                        [&](const View& view) { return !why_infeasible(run.model.map, view, reach); });

@@ -6,6 +6,7 @@
 #include "vantage/utility/gain.hpp"
 #include "vantage/utility/ray_information.hpp"
 #include "vantage/utility/ray_utility.hpp"
+#include "vantage/utility/tour.hpp"
 
 namespace vantage {
 namespace {
@@ -29,6 +30,7 @@ constexpr UtilityEntry entries[] = {
     {"combined", "the paper's utility, eq. 13", combined},
     {"gua", "greatest unknown area, eq. 21", gua},
     {"gain", "worth of the unknown that a view and the best one after it would meet", [] { return gain_utility(); }},
+    {"tour", "the first view of the fastest tour over the rest of the scan", [] { return tour_utility(); }},
     {"oa", "occlusion-aware information (Delmerico et al.)", along_rays<OcclusionAware>},
     {"uv", "unobserved voxels (Delmerico et al.)", along_rays<UnobservedVoxel>},
     {"rsv", "rear side voxels (Delmerico et al.)", along_rays<RearSideVoxel>},

@@ -41,6 +41,7 @@ struct Choice {
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
   /// Views whose scans could not be merged since the last one that could: what is known may be too little to go by.
   int refused = 0;
+  Travel travel = {};  // how moves between the views are counted
 };
 
 /// The score of a view that there was no time for.
@@ -52,11 +53,20 @@ using CountUtility = std::function<double(const Visibility&, const Factors&)>;
 /// ray_utility.hpp) or all views at once. Higher is better; 0 or less: not worth a scan.
 using SetUtility = std::function<std::vector<double>(const Choice&)>;
 
+/// A view of a tour over the rest of the scan.
+struct TourStop {
+  int candidate = -1;
+  double seconds = 0;  // from now to the end of its scan
+  double covered = 0;  // share of the expected surface that is known then
+};
+
 /// A utility with what it needs.
 struct Utility {
   std::variant<CountUtility, SetUtility> score;
   bool needs_all_views = false;      // compares views: is asked once per plan, about all views there is time for
   bool skips_scanned_views = false;  // never chooses a view twice
+  /// The rest of the scan, where it plans that: the view of the highest score first.
+  std::function<std::vector<TourStop>(const Choice&)> tour = {};
 
   [[nodiscard]] bool counts_only() const { return std::holds_alternative<CountUtility>(score); }
 };
