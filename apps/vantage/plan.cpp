@@ -13,6 +13,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/model/scan_model.hpp"
+#include "vantage/model/unposed.hpp"
 #include "vantage/options/robot_file.hpp"
 #include "vantage/options/scan_planning_options.hpp"
 #include "vantage/report/static_report.hpp"
@@ -69,6 +70,13 @@ void plan(PlanRequest& request) {
   if (!request.program.quiet) print_scan_set(set);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});
+  if (!request.options.reading.has_poses()) {
+    FoundScans found = with_found_poses(pending, request.options.scene);
+    if (!request.program.quiet) {
+      for (const std::string& note : found.notes) print_note("{}\n", note);
+    }
+    pending = std::move(found.scans);
+  }
   pending = kept_for_second_reading(std::move(pending));
   ScanScene fitted = fit_scene(pending, request.options.scene);
   request.options.require_can_plan(fitted.scene);

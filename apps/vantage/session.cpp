@@ -65,6 +65,7 @@ void add(SessionRequest& request) {
   const ScanFolderOptions reading = reading_options(request, session);
   std::vector<ScanFile> files;
   for (const std::string& path : request.scans) {
+    reading.require_poses();
     ScanSet set = open_scans(path, reading);
     if (!request.program.quiet) print_scan_set(set);
     for (ScanFile& file : set.scans) files.push_back(std::move(file));

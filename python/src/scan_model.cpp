@@ -77,6 +77,7 @@ std::unique_ptr<GrowingModel> model_of_folder(const std::filesystem::path& path,
   const ScanPlanningOptions options = options_from(keywords, "read_scans");
   options.validate_without_commands();
   const py::gil_scoped_release release;
+  options.reading.require_poses();
   const ScanSet set = open_scans(path, options.reading);
   std::vector<PendingScan> pending;
   for (const ScanFile& file : set.scans) pending.push_back({file.name, file.view, file.read});

@@ -79,6 +79,7 @@ std::vector<ScanRecord> add_files(const OpenSession& session, const std::filesys
   ScanFolderOptions reading = session.get()->options().reading;
   set_options(option_fields(reading), keywords, "Session.add_files");
   const py::gil_scoped_release release;
+  reading.require_poses();
   const ScanSet set = open_scans(path, reading);
   require(!candidate || set.scans.size() == 1, "candidate = ", candidate.value_or(0), ": is for one scan, there are ",
           set.scans.size());

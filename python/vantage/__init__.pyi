@@ -715,7 +715,7 @@ def open_scans(path: Union[str, pathlib.Path], **options: Any) -> ScanSet:
         unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
         depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
         depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
-        poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        poses = : folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given
         match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
@@ -761,7 +761,7 @@ class ScanModel:
         unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
         depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
         depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
-        poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        poses = : folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given
         match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
@@ -849,7 +849,7 @@ def read_scans(path: Union[str, pathlib.Path], on_scan: Optional[Callable[[ScanR
         unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
         depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
         depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
-        poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        poses = : folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given
         match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
@@ -905,7 +905,7 @@ def scan_from_depth(depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, di
         unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
         depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
         depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
-        poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+        poses = : folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given
         match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
         intrinsics = : file with the intrinsics; one of the usual names if not given
         masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
@@ -977,7 +977,7 @@ class Session:
             unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
             depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
             depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
-            poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+            poses = : folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given
             match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
             intrinsics = : file with the intrinsics; one of the usual names if not given
             masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given
@@ -1034,7 +1034,7 @@ class Session:
             unknown = none: value that says that nothing was measured, beside 0 (and 65535 of 16 bits); may be inf
             depth_along = axis: what depths are measured along: axis (z), or ray (distance from the sensor)
             depth = : pattern of the depth images below the folder, like depth/*.png; recognised if not given
-            poses = : folder of pose files or trajectory (TUM); beside the frames if not given
+            poses = : folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given
             match = auto: how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto
             intrinsics = : file with the intrinsics; one of the usual names if not given
             masks = : folder of masks NAME.mask.png, whose black pixels are unknown; beside the frames, where there, if not given

@@ -87,6 +87,7 @@ const std::vector<CheckName>& doctor_checks() {
 Diagnosis examine(const std::filesystem::path& path, const DoctorOptions& options,
                   const std::function<void(const std::string&)>& progress) {
   options.validate();
+  options.folder.require_poses();
   Diagnosis diagnosis;
   ReadablePoses poses(path, options.folder);
   diagnosis.findings = poses.findings();

@@ -86,8 +86,9 @@ std::optional<FolderLayout> numbered(const fs::path& folder, const ScanFolderOpt
       source.has_value(), folder.string(), ": has ", images.size(),
       " depth images but no poses; must have a folder pose/ of files, a trajectory (groundtruth.txt, trajectory.log, "
       "camera_trajectory.json, traj.txt, poses.txt), or give one with --poses");
-  require(fs::exists(*source), "poses = '", options.poses, "': there is no such folder or file in ", folder.string());
-  layout.kind = kind_of(folder, *source);
+  require(!options.has_poses() || fs::exists(*source), "poses = '", options.poses,
+          "': there is no such folder or file in ", folder.string());
+  layout.kind = options.has_poses() ? kind_of(folder, *source) : "numbered frames";
   take_poses(layout, *source, options);
   return layout;
 }

@@ -160,6 +160,11 @@ std::optional<fs::path> first_file(const fs::path& folder, const std::vector<std
 }
 
 void take_poses(FolderLayout& layout, const fs::path& source, const ScanFolderOptions& options) {
+  if (!options.has_poses()) {
+    for (LayoutFrame& frame : layout.frames) frame.world_from_sensor = Pose::Identity();
+    layout.poses = "no poses";
+    return;
+  }
   MatchedPoses matched;
   if (fs::is_directory(source)) {
     matched = poses_from_folder(source, layout.frames);

@@ -66,6 +66,11 @@ bool has_pose_file(const std::filesystem::path& folder, const std::string& name)
 
 MatchedPoses poses_of_scans(const std::filesystem::path& folder, const std::string& poses,
                             const std::vector<FrameKey>& frames, PoseMatch match) {
+  if (poses == without_poses) {
+    return {.poses = std::vector<std::optional<Pose>>(frames.size(), Pose::Identity()),
+            .why_not = std::vector<std::string>(frames.size()),
+            .how = "no poses"};
+  }
   const std::filesystem::path source = poses.empty() ? folder : below(folder, poses);
   require(std::filesystem::exists(source), "poses = ", in_quotes(poses), ": there is no such folder or file in ",
           folder.string());

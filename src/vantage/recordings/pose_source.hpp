@@ -2,12 +2,16 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/core/geometry.hpp"
 #include "vantage/recordings/pose_match.hpp"
 
 namespace vantage {
+
+/// What is given instead of a folder or a trajectory where poses are not known.
+inline constexpr std::string_view without_poses = "none";
 
 /// The poses of scans that lie in `folder`: from `NAME.pose.txt` or `NAME.pose.json` beside them or in the folder
 /// `poses`, or from the file of many poses `poses`. `poses` may be relative to `folder`. Scans without a pose, or whose

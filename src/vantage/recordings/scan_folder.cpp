@@ -176,7 +176,7 @@ ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
           fmt::format("scan {} does not lie beside {}", in_quotes(scan.file), file.filename().string()));
       continue;
     }
-    const View view{scan.world_from_scan};
+    const View view{options.has_poses() ? scan.world_from_scan : Pose::Identity()};
     set.scans.push_back({as_utf8(path->stem().string()), view, [path = *path, view, options] {
                            return cropped(read_line_scan(path, options.scanner_origin), view, options);
                          }});
@@ -187,6 +187,7 @@ ScanSet open_conf(const fs::path& file, const ScanFolderOptions& options) {
 }
 
 ScanSet open_bag_scans(const fs::path& path, const ScanFolderOptions& options) {
+  require(options.has_poses(), "poses = none: ", path.string(), " is a bag, and poses are found of folders alone");
   const BagOptions bag{.topic = options.topic,
                        .frame = options.frame,
                        .poses = options.poses,
@@ -254,8 +255,14 @@ void ScanFolderOptions::validate() const {
           ": is the value of no-return");
   require(!no_return || (*no_return > 0 && *no_return <= 65535), "no-return = ", no_return.value_or(0),
           ": must be within 1 and 65535");
+  require(has_poses() || (hand_eye.empty() && !crop && cloud_frame == "sensor"),
+          "poses = none: hand-eye, crop and cloud-frame world need poses");
   require(every >= 1, "every = ", every, ": must be at least 1");
   require(scanner_origin.allFinite(), "scanner origin: must be finite numbers");
+}
+
+void ScanFolderOptions::require_poses() const {
+  require(has_poses(), "poses = none: only `vantage plan` finds poses; give poses here");
 }
 
 ScanSet open_scans(const fs::path& path, const ScanFolderOptions& options) {

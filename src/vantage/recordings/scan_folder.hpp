@@ -27,7 +27,8 @@ struct ScanFolderOptions {
   DepthAlong depth_along = DepthAlong::axis;
   /// Which files are the depth images, as a pattern below the scans' folder ("depth/*.png"); empty: recognised.
   std::string depth = "";
-  /// Folder of pose files or trajectory, in the scans' folder or by its own path; empty: beside the scans.
+  /// Folder of pose files or trajectory, in the scans' folder or by its own path; empty: beside the scans; none: poses
+  /// are not known, and every scan says that it was taken from the origin.
   std::string poses = "";
   PoseMatch match = PoseMatch::automatic;  // of the poses of a trajectory with scans
   /// File, likewise; empty: one of the usual names.
@@ -58,6 +59,9 @@ struct ScanFolderOptions {
   void validate() const;
   [[nodiscard]] double metres_per_unit() const;
   [[nodiscard]] double metres_per_depth_unit() const { return depth_scale.value_or(0.001); }
+  [[nodiscard]] bool has_poses() const { return poses != without_poses; }
+  /// For what cannot find poses: throws InputError where they are not known.
+  void require_poses() const;
   /// Whether `hand_eye` names a file, rather than being empty or numbers.
   [[nodiscard]] bool hand_eye_is_file() const { return !hand_eye.empty() && hand_eye.find(',') == std::string::npos; }
 };
@@ -74,7 +78,8 @@ void describe(ScanFolderOptions& o, Field&& field) {
         "what depths are measured along: axis (z), or ray (distance from the sensor)");
   field("depth", o.depth, "",
         "pattern of the depth images below the folder, like depth/*.png; recognised if not given");
-  field("poses", o.poses, "", "folder of pose files or trajectory (TUM); beside the frames if not given");
+  field("poses", o.poses, "",
+        "folder of pose files or trajectory (TUM), or none: found from the scans; beside the frames if not given");
   field("match", o.match, "",
         "how poses of a trajectory belong to frames: time (names are seconds), order, name (numbers), or auto");
   field("intrinsics", o.intrinsics, "", "file with the intrinsics; one of the usual names if not given");

@@ -37,11 +37,13 @@ PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSa
   PoseEvidence evidence;
   evidence.asked = static_cast<double>(samples.size());
   for (const auto& [sample, partner] : samples) {
+    bool is_near = false;
     if (partner != nullptr) {
       const SurfacePair pair = surface_pair(sample, *partner, limits.floor);
       const Vec3 offset = pair.target - pair.point;
       const double residual = pair.residual();
       if ((offset - residual * pair.normal).squaredNorm() < limits.reach * limits.reach) {
+        is_near = true;
         evidence.near += 1;
         const double cost = residual * residual / (2 * pair.variance);
         if (cost < worth) {
@@ -54,6 +56,7 @@ PoseEvidence evidence_at(const Pose& world_from_sensor, std::span<const PlacedSa
     }
     if (limits.still && !limits.still->contains(sample.point)) continue;
     const FreeSpace::Answer seen = seen_by_earlier_scans(sample.point, model.free_spaces());
+    if (seen == FreeSpace::Answer::unknown && !is_near) evidence.unseen += 1;
     const bool is_new = seen == FreeSpace::Answer::free && !is_explained(sample, limits);
     if (seen == FreeSpace::Answer::unknown || is_new) continue;
     evidence.looked_at += 1;

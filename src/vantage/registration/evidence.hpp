@@ -17,6 +17,7 @@ struct PoseEvidence {
   double squared_distances = 0;  // of those to the model's planes, m^2
   double looked_at = 0;          // samples of scan and model of which a range image of the other says something
   double in_free_space = 0;      // of them, those in space that it shows to be empty
+  double unseen = 0;             // samples of the scan where neither a surface nor free space is known
   /// Logarithm of the likelihood against one under which nothing is known of what the scan meets.
   double log_likelihood = 0;
 

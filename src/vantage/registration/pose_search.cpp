@@ -32,6 +32,12 @@ double worth_of_sample(double samples) {
 
 }  // namespace
 
+double coarse_spread(const RegisteredSurface& model, const ScanSurface& scan) {
+  const std::size_t stride = (model.surfels().surfels().size() + coarse_surfels - 1) / coarse_surfels;
+  const double apart = model.surfels().cell() * std::sqrt(static_cast<double>(stride));
+  return std::max(0.5 * apart, 3 * std::max(model.sigma(), scan.sigma));
+}
+
 PoseSearch::PoseSearch(const RegisteredSurface& model, const ScanSurface& scan, const PoseEstimate& prior, int starts,
                        const std::optional<Box3>& still)
     : model_(model),
@@ -45,8 +51,7 @@ PoseSearch::PoseSearch(const RegisteredSurface& model, const ScanSurface& scan, 
       even_(picked_evenly(scan.samples, fine_samples)) {
   reach_ = moved_by(prior_.root() * prior_.root().transpose());
   const double sigma = std::max(model.sigma(), scan.sigma);
-  const std::size_t stride = (model.surfels().surfels().size() + coarse_surfels - 1) / coarse_surfels;
-  coarse_spread_ = std::max(0.5 * cell() * std::sqrt(static_cast<double>(stride)), 3 * sigma);
+  coarse_spread_ = coarse_spread(model, scan);
   // Noise that a neighbourhood shares, and surfaces that bend within a cell.
   const double shared = 0.3 * sigma, bending = 0.03 * cell();
   floor_ = shared * shared + bending * bending;
@@ -240,6 +245,15 @@ void PoseSearch::weigh(PoseMode& mode) const {
   // Laplace: the height of the peak times its width, against that of the prior.
   const Mat6 ratio = Mat6::Identity() + mode.posterior.information * prior_.root() * prior_.root().transpose();
   mode.log_mass = mode.log_posterior - 0.5 * std::log(std::max(1.0, ratio.determinant()));
+}
+
+PoseMode PoseSearch::coarse_peak() const { return coarse_mode(Eigen::VectorXd::Zero(prior_.dimensions())); }
+
+PoseMode PoseSearch::fine_peak(PoseMode coarse) const {
+  narrow(coarse);
+  refine(coarse);
+  weigh(coarse);
+  return coarse;
 }
 
 std::vector<PoseMode> PoseSearch::modes() const {

@@ -22,6 +22,9 @@ struct PoseMode {
   bool converged = false;
 };
 
+/// How far apart surfaces are compared at first, metres: what the coarse search of a scan against this model resolves.
+[[nodiscard]] double coarse_spread(const RegisteredSurface& model, const ScanSurface& scan);
+
 /// The peaks of a pose's posterior: point to plane from deterministic samples of the prior, coarse to fine. The kernel
 /// of the residuals begins with how far the prior lets points be off and ends with the sensor's noise, so that what is
 /// still misplaced has its say at first. The same bits for any number of threads.
@@ -34,6 +37,11 @@ class PoseSearch {
 
   /// Best first; at least one.
   [[nodiscard]] std::vector<PoseMode> modes() const;
+  /// The peak that the coarse search reaches from the prior's mean: its log_posterior tells it from those of other
+  /// priors.
+  [[nodiscard]] PoseMode coarse_peak() const;
+  /// A coarse peak refined and weighed.
+  [[nodiscard]] PoseMode fine_peak(PoseMode coarse) const;
 
   [[nodiscard]] const WhitenedPrior& prior() const { return prior_; }
   /// RMS distance of the scan's samples between two poses, metres.
