@@ -7,7 +7,7 @@ namespace vantage {
 
 namespace {
 
-/// Who is asked for one plan can also be told the rest of the scan.
+/// A single plan shows the rest of the scan too.
 PlannerOptions telling(const ReconstructOptions& planning) {
   PlannerOptions options = planning.planner_options();
   options.tells_tour = true;
