@@ -52,7 +52,7 @@ SurfaceDescriptor as_descriptor(const Histogram& histogram) {
   return descriptor;
 }
 
-/// How little a neighbourhood's normals agree: 0 on a plane, more where a place can be told from others.
+/// How little a neighbourhood's normals agree: 0 on a plane, more where a place differs from others.
 double bend(std::span<const SurfaceSample> places, std::size_t here, std::span<const Neighbor> around) {
   Vec3 sum = places[here].normal;
   for (const Neighbor& neighbor : around) sum += places[neighbor.index].normal;
