@@ -97,7 +97,7 @@ void improve(ObjectModel& model, const Registrar& registrar, QualityReference qu
   make_again(model, merged_scans(model), registrar, quality);
 }
 
-/// Lays all scans on each other anew from where they are now, which is better known than when each came in, and
+/// Lays all scans on each other again from where they are now, which is better known than when each came in, and
 /// improves their poses together; until they hardly move.
 void lay_again(ObjectModel& model, const Registrar& registrar) {
   constexpr int most_rounds = 3;

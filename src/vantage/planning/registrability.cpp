@@ -17,11 +17,10 @@ double standard_normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0
 
 }  // namespace
 
-double chance_of_acceptance(const Visibility& seen) {
-  constexpr double most = 0.969, offset = 15.9, by_root_of_count = 271.6, by_overlap = 1.1, least = 0.06;
-  const auto known = static_cast<double>(seen.occupied);
-  const double overlap = known / std::max(1.0, known + static_cast<double>(seen.occplane));
-  const double chance = most / (1 + std::exp(by_root_of_count / std::sqrt(known + 1) - offset - by_overlap * overlap));
+double chance_of_acceptance(std::int64_t known_voxels) {
+  constexpr double most = 0.94, offset = 13.4, by_root_of_count = 226.5, least = 0.06;
+  const double chance =
+      most / (1 + std::exp(by_root_of_count / std::sqrt(static_cast<double>(known_voxels) + 1) - offset));
   return std::max(least, chance);
 }
 
@@ -118,7 +117,7 @@ RegistrableViews rank_by_registrability(const ViewEvaluation& problem, std::vect
           problem.visibility.visible_voxels(problem.camera, each.view, problem.ideal(each.candidate));
       const PoseError error = options.error->of_move(problem.current, each.view);
       each.registrability = surface.registrability(each.view, seen, error);
-      if (!error.covariance.isZero(0)) each.registrability->probability *= chance_of_acceptance(each.seen);
+      if (!error.covariance.isZero(0)) each.registrability->probability *= chance_of_acceptance(each.seen.occupied);
       if (each.score > 0) each.score *= each.registrability->probability;
     });
     for (std::size_t i = begin; i < end; ++i) {

@@ -62,7 +62,9 @@ TEST(UnposedScans, TheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(UnposedScans, OptionsAreChecked) {
-  EXPECT_THROW((void)find_poses({}, {.least_overlap = 2}), InputError);
+  AnywhereOptions too_much;
+  too_much.least_overlap = 2;
+  EXPECT_THROW((void)find_poses({}, too_much), InputError);
   EXPECT_TRUE(find_poses({}).empty());
 }
 

@@ -16,7 +16,8 @@ class SessionPage {
   /// Begins with the map before the first scan. `run` must outlive this.
   SessionPage(const ScanPlanningOptions& options, const std::string& name, LiveRun& run);
 
-  /// The model after one scan more. One with no more scans than are shown begins anew: some were taken out or put back.
+  /// The model after one scan more. One with no more scans than are shown starts again: some were taken out or put
+  /// back.
   void add_scan(const SessionModel& model);
   /// Shows no scan any more.
   void clear();

@@ -45,7 +45,7 @@ class Session {
   /// Opens a session and merges its scans again where they were registered before. Throws InputError where it is none,
   /// Error where another process has it open.
   /// `on_scan` is called with the model after each scan, those merged again while opening too, in the thread that
-  /// merges; next() and status() know of the scan by then. After remove() and restore() the calls begin anew, with a
+  /// merges; next() and status() know of the scan by then. After remove() and restore() the calls start again, with a
   /// model of one scan, and next() and status() know of them once the last was merged. What it throws becomes a
   /// warning: the model stays as it is.
   using OnScan = std::function<void(const SessionModel&)>;

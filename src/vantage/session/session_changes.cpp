@@ -40,7 +40,7 @@ std::optional<int> Session::same_scan(const SessionScan& scan) {
       const bool keys_differ = !scan.key.empty() && !there.key.empty() && scan.key != there.key;
       if (!keys_differ && measured_bytes(there) == bytes) return each->second;
     } catch (const std::exception&) {
-      // What cannot be read cannot be told to be the same.
+      // Nobody knows whether what cannot be read is the same.
     }
   }
   return std::nullopt;
