@@ -45,14 +45,14 @@ TriangleMesh true_scene(const ReconstructOptions& options) {
   return scene;
 }
 
-struct Tour {
+struct ArmTour {
   std::vector<Move> moves;
   std::vector<View> views;
   double travel = 0;  // radians of the joints
   std::int64_t occupied = 0;
 };
 
-Tour plan_views(const RangeScanner& scanner, const ReconstructOptions& options) {
+ArmTour plan_views(const RangeScanner& scanner, const ReconstructOptions& options) {
   ObjectModel model(options.scene_options(), options.point_spacing());
   Planner planner(options.candidate_views(), options.range_camera(), options.planner_options());
   SimulatedRobot robot(scanner, options.range_camera(), {}, options.seed);
@@ -60,7 +60,7 @@ Tour plan_views(const RangeScanner& scanner, const ReconstructOptions& options) 
   Reconstruction loop(robot, planner, registrar);
   loop.budget.max_views = 1 + planned_views;
   loop.budget.max_fruitless_scans = planned_views;
-  Tour tour;
+  ArmTour tour;
   loop.on_scan = [&tour](ScanRecord& record, const Scan&, const ObjectModel&, const Plan* plan) {
     tour.travel = record.distance;
     tour.occupied = record.labels.occupied;
@@ -74,7 +74,7 @@ Tour plan_views(const RangeScanner& scanner, const ReconstructOptions& options) 
   return tour;
 }
 
-void write_moves(const std::filesystem::path& path, const Tour& tour) {
+void write_moves(const std::filesystem::path& path, const ArmTour& tour) {
   std::ofstream file(path);
   file.precision(17);
   for (std::size_t i = 0; i < tour.moves.size(); ++i) {
@@ -104,10 +104,10 @@ int main(int argc, char** argv) {
   const RangeScanner scanner(scene);
 
   std::printf("moves counted by the path of the joints: ");
-  const Tour by_travel = plan_views(scanner, options);
+  const ArmTour by_travel = plan_views(scanner, options);
   std::printf("by utility alone:                        ");
   options.navigation = false;
-  const Tour by_utility = plan_views(scanner, options);
+  const ArmTour by_utility = plan_views(scanner, options);
   if (argc > 2) {
     const std::filesystem::path folder(argv[2]);
     write_scene(folder / "scene.off", scene);
