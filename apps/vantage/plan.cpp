@@ -29,6 +29,7 @@ struct PlanRequest {
   int top = 10;
   bool overwrite = false;
   bool report = true;
+  bool conclude = false;
   ScanPlanningOptions options;
   SurfaceOptions surface;
   std::set<std::string> given;  // names of options that the user set
@@ -118,7 +119,8 @@ void plan(PlanRequest& request) {
   summary.object = description.object;
   summary.stop_reason = next ? "" : planner.why_finished();
   if (folder) {
-    for (const int number : scans.conclude(*registrar)) {
+    const std::vector<int> came_in = request.conclude ? scans.conclude(*registrar) : std::vector<int>();
+    for (const int number : came_in) {
       if (!request.program.quiet)
         print_note("scan {} came in at the end, {}\n", number,
                    printable(pending[static_cast<std::size_t>(number)].name));
@@ -148,6 +150,8 @@ void add_plan(CLI::App& program) {
   command->add_flag("--overwrite", request->overwrite,
                     "write into --out although it holds other files, and replace those of the same names");
   command->add_option("--top", request->top, "views to print, best first")->capture_default_str();
+  command->add_flag("--conclude", request->conclude,
+                    "no scan follows: before --out is written, try refused scans again and improve all poses together");
   command->add_flag("--report,!--no-report", request->report, "write mesh.ply and report.html");
   add_options(*command, noting(with_fields(option_fields(request->options), request->surface), request->given));
   add_program_options(*command, request->program);

@@ -34,6 +34,7 @@ struct SessionRequest {
   std::string reason;               // next
   std::vector<int> numbers;         // remove, restore
   bool overwrite = false;           // finish
+  bool conclude = false;            // finish
   ProgramOptions program;
 };
 
@@ -167,7 +168,8 @@ void finish(SessionRequest& request) {
   const auto threads = limit_threads(request.program.threads);
   Session session(request.folder);
   tell_dropped(session.status());
-  session.finish(report_page, request.overwrite ? ForeignFiles::overwrite : ForeignFiles::refuse);
+  session.finish(report_page, request.overwrite ? ForeignFiles::overwrite : ForeignFiles::refuse,
+                 request.conclude ? Session::Ending::concluded : Session::Ending::as_it_stands);
   if (!request.program.quiet) fmt::print("written to {}; open report.html there\n", request.folder);
 }
 
@@ -241,6 +243,8 @@ void add_session(CLI::App& program) {
   step = add_step(*session, "finish", "Write model, mesh, map, views.csv, summary.json and report.html", for_finish,
                   finish);
   step->add_flag("--overwrite", for_finish->overwrite, "replace files of these names that the session did not write");
+  step->add_flag("--conclude", for_finish->conclude,
+                 "no scan follows: try refused scans again and improve all poses together before writing");
   add_program_options(*step, for_finish->program);
 }
 

@@ -213,9 +213,15 @@ void bind_session(py::module_& module) {
           "cloud", [](const OpenSession& session) { return session.get()->cloud(); }, Release(),
           "The fused PointCloud in the box, world frame; a copy.")
       .def(
-          "finish", [](const OpenSession& session) { session.get()->finish(report_page); }, Release(),
+          "finish",
+          [](const OpenSession& session, bool conclude) {
+            session.get()->finish(report_page, ForeignFiles::refuse,
+                                  conclude ? Session::Ending::concluded : Session::Ending::as_it_stands);
+          },
+          py::arg("conclude") = false, Release(),
           "Writes map.nrrd, map.ply, model.ply, mesh.ply, views.csv, summary.json and report.html into the folder. "
-          "Scans may be added afterwards.")
+          "conclude: refused scans are tried again and all poses improved together before. Scans may be added "
+          "afterwards.")
       .def_property_readonly(
           "folder", [](const OpenSession& session) { return session.get()->folder(); }, "Path of the session.")
       .def_property_readonly("is_open", &OpenSession::is_open, "False after close().")

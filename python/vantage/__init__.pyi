@@ -932,6 +932,9 @@ class SessionStatus:
     def merged(self) -> int:
         """Scans that are in the map."""
     @property
+    def removed(self) -> Set[int]:
+        """Numbers of the scans that were taken out."""
+    @property
     def skipped(self) -> Dict[int, str]:
         """Candidates that are not planned: {index: reason}."""
     @property
@@ -1004,9 +1007,10 @@ class Session:
             multi_resolution_stages = none: k; by default the smallest with b^k >= |V|
             multi_resolution_columns = 40: columns of the coarsest stage, R_min
             utility = combined: how views are judged: combined, gua, gain, tour, oa, uv, rsv, rse, pc, ae, kriegel, massios-fisher, sanchiz-fisher, blaer-allen, apora, random, uniform
+            plan = view: view: the next view by the utility; tour: the fastest tour over the rest of the scan, of which the first view is next, as the utility tour
             scan_time = 3 [s]: of tours: what a scan takes
-        speed = 0.5 [m/s]: of tours: how fast the robot moves
-        alpha_oc = 0.2: desired share of occupied voxels, eq. 7
+            speed = 0.5 [m/s]: of tours: how fast the robot moves
+            alpha_oc = 0.2: desired share of occupied voxels, eq. 7
             alpha_op = 0.8: desired share of occplane voxels, eq. 7
             rho = 0.2: navigation factor of the farthest view, eq. 10
             navigation = true: use the navigation factor
@@ -1026,7 +1030,7 @@ class Session:
     def add_depth(self, depth: ArrayLike, intrinsics: ArrayLike, pose: ArrayLike, distortion: List[float] = ..., mask: Optional[ArrayLike] = None, name: str = '', candidate: Optional[int] = None) -> ScanRecord:
         """Adds a depth image as scan_from_depth() reads it, by the session's options (depth_scale, unit, hand_eye, crop, ...): depth (rows, columns), uint16 or floating-point; intrinsics (3, 3); pose (4, 4) as the robot reports it; mask (rows, columns), zero where a pixel does not count. Returns its ScanRecord once it is safe on disk."""
     def add_files(self, path: Union[str, pathlib.Path], candidate: Optional[int] = None, **options: Any) -> List[ScanRecord]:
-        """Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or a Stanford .conf. candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.
+        """Adds scans as `vantage session add` does: a depth frame or cloud with its pose beside it, a folder of them, or a Stanford .conf. Those that are there already with the same measurements and pose are left out, with a warning. candidate: index of the planned view that this one scan was taken from. A list of ScanRecord.
         The session's options of reading, which keywords change for these scans alone:
             depth_scale = none [m]: what one unit of a depth image means; what the data set says, else 0.001, if not given
             depth_range = 0,4.5 [m]: nearest and farthest depth to trust; beyond is free space up to the limit
@@ -1056,6 +1060,10 @@ class Session:
         """This candidate is not planned again: it could not be reached, or nobody wants it."""
     def unskip(self, candidate: int) -> None:
         """Takes skip() back."""
+    def remove(self, number: int) -> None:
+        """Takes a scan out, as if it had never come: those after it are registered again. Its file is kept."""
+    def restore(self, number: int) -> None:
+        """Takes remove() back."""
     def status(self) -> SessionStatus:
         """How it stands: SessionStatus."""
     @property

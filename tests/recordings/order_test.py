@@ -38,7 +38,7 @@ def poses_of(names, folder):
         for ending in (".depth.png", ".pose.txt"):
             (scans / f"{number:03}{ending}").symlink_to(SET / (name + ending))
     subprocess.run([VANTAGE, "plan", scans, BOX, "--depth-range", "0.25,1.5", "--out", folder / "out", "--no-report",
-                    "--quiet"], check=True, stdout=subprocess.DEVNULL)
+                    "--conclude", "--quiet"], check=True, stdout=subprocess.DEVNULL)
     poses = {}
     with open(folder / "out" / "views.csv", encoding="utf-8") as table:
         for row in csv.DictReader(table):

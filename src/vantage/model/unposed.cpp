@@ -42,15 +42,16 @@ FoundScans with_found_poses(const std::vector<PendingScan>& scans, const SensorO
   std::size_t count = 0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     result.notes[i] = note_of(scans[i].name, found[i]);
-    if (found[i].rank) in_order[*found[i].rank] = &found[i];
-    count += found[i].rank ? 1 : 0;
+    const UnposedScan& scan = found[i];
+    if (scan.rank) in_order[*scan.rank] = &scan;
+    count += scan.rank ? 1 : 0;
   }
   require(count >= 2 || scans.size() < 2, "poses = none: no two of the ", scans.size(),
           " scans fit together; neighbouring scans must show a third of the same surface. ", result.notes.back());
   for (std::size_t rank = 0; rank < count; ++rank) {
-    const auto i = static_cast<std::size_t>(in_order[rank] - found.data());
-    result.scans.push_back(scans[i]);
-    result.scans.back().believed = View{*found[i].world_from_sensor};
+    const UnposedScan& scan = *in_order[rank];
+    result.scans.push_back(scans[static_cast<std::size_t>(&scan - found.data())]);
+    result.scans.back().believed = View{scan.world_from_sensor.value_or(Pose::Identity())};
   }
   return result;
 }

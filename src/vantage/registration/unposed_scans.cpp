@@ -104,7 +104,11 @@ class PoseFinder {
     if (scans_.empty()) return {};
     place(most_alike(), Pose::Identity());
     for (const Growth growth : {Growth::a_tenth, Growth::any}) {
-      while (const std::optional<std::size_t> next = most_supported(growth)) try_one(*next);
+      while (true) {
+        const std::optional<std::size_t> next = most_supported(growth);
+        if (!next) break;
+        try_one(*next);
+      }
     }
     in_frame_of_first();
     return found_;
@@ -172,9 +176,10 @@ class PoseFinder {
   [[nodiscard]] std::vector<Suggestion> suggestions(std::size_t scan) const {
     std::vector<Suggestion> all;
     for (std::size_t i = 0; i < scans_.size(); ++i) {
-      if (!found_[i].world_from_sensor) continue;
+      const std::optional<Pose>& world_from_fixed = found_[i].world_from_sensor;
+      if (!world_from_fixed) continue;
       for (const PoseHypothesis& each : pair(i, scan))
-        all.push_back({*found_[i].world_from_sensor * each.fixed_from_moving, each.support});
+        all.push_back({*world_from_fixed * each.fixed_from_moving, each.support});
     }
     return pooled(all, features_[scan]);
   }
@@ -196,8 +201,9 @@ class PoseFinder {
   }
 
   void in_frame_of_first() {
-    if (!found_[0].world_from_sensor) return;
-    const Pose first_from_world = found_[0].world_from_sensor->inverse();
+    const std::optional<Pose>& world_from_first = found_[0].world_from_sensor;
+    if (!world_from_first) return;
+    const Pose first_from_world = world_from_first->inverse();
     for (UnposedScan& scan : found_) {
       if (scan.world_from_sensor) scan.world_from_sensor = first_from_world * *scan.world_from_sensor;
       for (Pose& pose : scan.alternatives) pose = first_from_world * pose;

@@ -7,6 +7,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/files/plain_text.hpp"
 #include "vantage/runs/run_folder.hpp"
+#include "vantage/session/sealed_file.hpp"
 
 namespace vantage {
 namespace {

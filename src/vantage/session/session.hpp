@@ -85,11 +85,13 @@ class Session {
   [[nodiscard]] PointCloud cloud();
   /// The surface in the box, from the last integrated scans; those that came since the call before are added to it.
   [[nodiscard]] MeasuredMesh mesh();
-  /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10), of all scans
-  /// together: refused ones are tried once more and all poses improved. The session itself stays as it is. Scans may be
+  /// What finish() writes: the model as it stands, or one in which refused scans were tried once more and all poses
+  /// improved together. The session itself stays as it is.
+  enum class Ending { as_it_stands, concluded };
+  /// Writes model, mesh, map, views.csv, summary.json and report.html into the folder (spec, section 10). Scans may be
   /// added during that and after it. Throws InputError where files of these names are there that no session wrote,
   /// unless they are to be overwritten.
-  void finish(const RunPage& page, ForeignFiles foreign = ForeignFiles::refuse);
+  void finish(const RunPage& page, ForeignFiles foreign = ForeignFiles::refuse, Ending ending = Ending::as_it_stands);
 
  private:
   struct Waiting {

@@ -30,7 +30,7 @@ RunDescription describe_run(const Session& session, const SessionState& state, c
 
 }  // namespace
 
-void Session::finish(const RunPage& page, ForeignFiles foreign) {
+void Session::finish(const RunPage& page, ForeignFiles foreign, Ending ending) {
   const std::lock_guard finishing(finishing_);
   const auto start = Clock::now();
   const SessionPlan last = next();
@@ -44,7 +44,7 @@ void Session::finish(const RunPage& page, ForeignFiles foreign) {
     (void)model.add(number, scan, folder_.located(number));
     run.add_scan(model.model().scans.back(), scan.scan, model.model(), nullptr);
   }
-  model.conclude();
+  if (ending == Ending::concluded) model.conclude();
   RunSummary summary;
   summary.object = name_of_folder(folder());
   summary.stop_reason = last.why_finished;
