@@ -1077,8 +1077,8 @@ class Session:
         """(4, 4), where the last scan was taken."""
     def cloud(self) -> PointCloud:
         """The fused PointCloud in the box, world frame; a copy."""
-    def finish(self) -> None:
-        """Writes map.nrrd, map.ply, model.ply, mesh.ply, views.csv, summary.json and report.html into the folder. Scans may be added afterwards."""
+    def finish(self, conclude: bool = False) -> None:
+        """Writes map.nrrd, map.ply, model.ply, mesh.ply, views.csv, summary.json and report.html into the folder. conclude: refused scans are tried again and all poses improved together before. Scans may be added afterwards."""
     @property
     def folder(self) -> Union[str, pathlib.Path]:
         """Path of the session."""
