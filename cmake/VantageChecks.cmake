@@ -43,7 +43,7 @@ endif()
 # Compiles the planner once more.
 vantage_check(Consumer.EmbedsTheSource ${consumer} -DSOURCE=${PROJECT_SOURCE_DIR}
               -DWORK=${PROJECT_BINARY_DIR}/consumer/embedded ${check})
-set_tests_properties(Consumer.EmbedsTheSource PROPERTIES LABELS slow)
+set_tests_properties(Consumer.EmbedsTheSource PROPERTIES LABELS slow TIMEOUT 1800)
 # The listings of the README, against the package that the consumer test before it has installed.
 if(TARGET vantage_python)
   add_test(NAME Readme.ListingsRun COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/cli/readme_test.py

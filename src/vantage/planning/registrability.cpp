@@ -117,7 +117,11 @@ RegistrableViews rank_by_registrability(const ViewEvaluation& problem, std::vect
           problem.visibility.visible_voxels(problem.camera, each.view, problem.ideal(each.candidate));
       const PoseError error = options.error->of_move(problem.current, each.view);
       each.registrability = surface.registrability(each.view, seen, error);
-      if (!error.covariance.isZero(0)) each.registrability->probability *= chance_of_acceptance(each.seen.occupied);
+      if (!error.covariance.isZero(0)) {
+        const auto known = std::count_if(
+            seen.begin(), seen.end(), [&](const Index3& voxel) { return problem.map.label(voxel) == Label::occupied; });
+        each.registrability->probability *= chance_of_acceptance(known);
+      }
       if (each.score > 0) each.score *= each.registrability->probability;
     });
     for (std::size_t i = begin; i < end; ++i) {

@@ -50,8 +50,9 @@ class KnownSurface {
 
 /// Chance that registration accepts the scan of a view that sees so many known voxels, if its pose comes out right:
 /// directions that few noisy normals speak of count as open, and verdicts are careful. Fitted to scans of `experiment
-/// robustness` that were planned without it (docs/registration.md); never less than 0.06, since few of them showed less
-/// than 200 known voxels. Planned with it, scans show more, and more of them are accepted.
+/// robustness` that were planned without it, by the count that the utility `gain` has; visible_voxels() counts fewer,
+/// so that plans are more careful than that. Never less than 0.06, since few of those scans showed less than 200
+/// voxels.
 [[nodiscard]] double chance_of_acceptance(std::int64_t known_voxels);
 
 /// By how much an error of a view's pose (in the order of PoseError) moves a measured point along a normal, per unit.
