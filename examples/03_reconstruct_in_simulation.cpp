@@ -13,7 +13,7 @@ int main() {
   options.camera = "45x45:160x160";
   options.positioning_error = Vec3::Constant(0.03);
   options.registration = "icp";
-  options.max_views = 6;
+  options.max_views = 8;
 
   const SimulatedObject mug(make_object("mug"), default_size("mug"), options);
   RunObserver observer;
