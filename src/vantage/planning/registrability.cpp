@@ -17,10 +17,12 @@ double standard_normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0
 
 }  // namespace
 
-double chance_of_acceptance(std::int64_t known_voxels) {
+double chance_of_acceptance(double known_points) {
+  // Fitted in voxels of 20 mm, 2 m from a camera of 45 x 45 degrees and 320 x 320 pixels.
+  constexpr double points_of_a_voxel = 14.92;
   constexpr double most = 0.94, offset = 13.4, by_root_of_count = 226.5, least = 0.06;
   const double chance =
-      most / (1 + std::exp(by_root_of_count / std::sqrt(static_cast<double>(known_voxels) + 1) - offset));
+      most / (1 + std::exp(by_root_of_count / std::sqrt(known_points / points_of_a_voxel + 1) - offset));
   return std::max(least, chance);
 }
 
@@ -107,6 +109,8 @@ RegistrableViews rank_by_registrability(const ViewEvaluation& problem, std::vect
            each.factors.x_oc >= options.least_overlap;
   };
   RegistrableViews result;
+  const RayGrid rays = problem.camera.rays();
+  const double pixel = std::max(2 * rays.x_half / rays.resolution.columns, 2 * rays.y_half / rays.resolution.rows);
   double best_score = 0;  // of admissible views
   bool is_settled = false;
   for (std::size_t begin = 0; begin < ranked.size() && !is_settled; begin += views_at_a_time) {
@@ -120,7 +124,9 @@ RegistrableViews rank_by_registrability(const ViewEvaluation& problem, std::vect
       if (!error.covariance.isZero(0)) {
         const auto known = std::count_if(
             seen.begin(), seen.end(), [&](const Index3& voxel) { return problem.map.label(voxel) == Label::occupied; });
-        each.registrability->probability *= chance_of_acceptance(known);
+        const double spacing = pixel * (each.view.position() - problem.candidates.center).norm();
+        const double points_of_a_voxel = std::pow(problem.map.grid().length / spacing, 2);
+        each.registrability->probability *= chance_of_acceptance(points_of_a_voxel * static_cast<double>(known));
       }
       if (each.score > 0) each.score *= each.registrability->probability;
     });

@@ -48,12 +48,12 @@ class KnownSurface {
   std::vector<Patch> patches_;
 };
 
-/// Chance that registration accepts the scan of a view that sees so many known voxels, if its pose comes out right:
-/// directions that few noisy normals speak of count as open, and verdicts are careful. Fitted to scans of `experiment
-/// robustness` that were planned without it, by the count that the utility `gain` has; visible_voxels() counts fewer,
-/// so that plans are more careful than that. Never less than 0.06, since few of those scans showed less than 200
-/// voxels.
-[[nodiscard]] double chance_of_acceptance(std::int64_t known_voxels);
+/// Chance that registration accepts the scan of a view with so many points on known voxels, if its pose comes out
+/// right: directions that few noisy normals speak of count as open, and verdicts are careful. Fitted to scans of
+/// `experiment robustness` that were planned without it, by the count that the utility `gain` has; visible_voxels()
+/// counts fewer, so that plans are more careful than that. Never less than 0.06, since few of those scans showed less
+/// than 3,000 points.
+[[nodiscard]] double chance_of_acceptance(double known_points);
 
 /// By how much an error of a view's pose (in the order of PoseError) moves a measured point along a normal, per unit.
 [[nodiscard]] PoseError::Vector effect_of_error(const View& view, const Vec3& point, const Vec3& normal);

@@ -120,13 +120,13 @@ TEST(Registrability, WhatSlidesInItselfMisplacesNoSurface) {
   }
 }
 
-TEST(Registrability, FewVoxelsAreSeldomEnough) {
-  // As observed: below 200 voxels hardly any scan, from 200 to 400 less than half, from 400 on nearly all.
+TEST(Registrability, FewPointsAreSeldomEnough) {
+  // As observed, in points of 15 a voxel: below 3,000 hardly any scan, up to 6,000 less than half, then nearly all.
   EXPECT_EQ(chance_of_acceptance(0), 0.06);
-  EXPECT_LT(chance_of_acceptance(150), 0.1);
-  EXPECT_GT(chance_of_acceptance(300), 0.3);
-  EXPECT_LT(chance_of_acceptance(300), 0.7);
-  EXPECT_GT(chance_of_acceptance(600), 0.9);
+  EXPECT_LT(chance_of_acceptance(2200), 0.1);
+  EXPECT_GT(chance_of_acceptance(4500), 0.3);
+  EXPECT_LT(chance_of_acceptance(4500), 0.7);
+  EXPECT_GT(chance_of_acceptance(9000), 0.9);
 }
 
 TEST(Registrability, ASheetDoesNotSayWhereAWallBesideItIs) {
