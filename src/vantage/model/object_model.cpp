@@ -87,14 +87,15 @@ std::vector<int> numbers_in(const Scans& by_number) {
 
 std::vector<int> merged_scans(const ObjectModel& model) { return numbers_in(model.cloud_growth); }
 
-/// Improves all poses together. Surfaces that move by less than `visible` metres stay where they are.
-void improve(ObjectModel& model, const Registrar& registrar, QualityReference quality, double visible) {
+/// Improves all poses together, but for the map; returns whether some surface moves by more than `visible` metres.
+/// Where none does, all stay where they are.
+bool improve_poses(ObjectModel& model, double visible) {
   const ScanGraph::Improved improved = model.graph.improve();
-  if (improved.largest_move <= visible) return;
+  if (improved.largest_move <= visible) return false;
   model.graph.accept(improved);
   for (const auto& [number, pose] : improved.world_from_sensor)
     model.scans[static_cast<std::size_t>(number)].registered = View{pose};
-  make_again(model, merged_scans(model), registrar, quality);
+  return true;
 }
 
 /// Lays all scans on each other again from where they are now, which is better known than when each came in, and
@@ -104,20 +105,21 @@ void lay_again(ObjectModel& model, const Registrar& registrar) {
   constexpr std::size_t most_scans = 100;  // whose surfaces a graph keeps; of more the poses stay as they are
   const std::vector<int> order = merged_scans(model);
   if (order.size() > most_scans) return;
-  for (int round = 0; round < most_rounds; ++round) {
-    ScanGraph graph;
-    for (const int number : order) {
+  std::vector<std::pair<int, std::shared_ptr<const ScanSurface>>> surfaces;  // in the order of merging
+  for (const int number : order) {
+    const Scan scan = model.kept.at(number).scan();
+    const View& believed = model.scans[static_cast<std::size_t>(number)].believed;
+    if (auto surface = registrar.surface_of(scan, points_of(scan), believed))
+      surfaces.emplace_back(number, std::move(surface));
+  }
+  bool moves = true;
+  for (int round = 0; moves && round < most_rounds; ++round) {
+    model.graph = ScanGraph();
+    for (const auto& [number, surface] : surfaces) {
       const ScanRecord& record = model.scans[static_cast<std::size_t>(number)];
-      const Scan scan = model.kept.at(number).scan();
-      const auto surface = registrar.surface_of(scan, points_of(scan), record.believed);
-      if (surface) graph.add(number, *surface, model.priors.at(number), record.registered.world_from_sensor);
+      model.graph.add(number, *surface, model.priors.at(number), record.registered.world_from_sensor);
     }
-    const ScanGraph::Improved improved = graph.improve();
-    graph.accept(improved);
-    model.graph = std::move(graph);
-    for (const auto& [number, pose] : improved.world_from_sensor)
-      model.scans[static_cast<std::size_t>(number)].registered = View{pose};
-    if (improved.largest_move <= least_move * model.map.grid().length) break;
+    moves = improve_poses(model, least_move * model.map.grid().length);
   }
 }
 
@@ -308,7 +310,8 @@ void add(ObjectModel& model, const Scan& scan, Registrar& registrar, QualityRefe
     recovered = reconsider(model, registrar, quality, number);
   std::erase(recovered, number);
   record().recovered = std::move(recovered);
-  if (model.graph.is_due()) improve(model, registrar, quality, visible_move * model.map.grid().length);
+  if (model.graph.is_due() && improve_poses(model, visible_move * model.map.grid().length))
+    make_again(model, merged_scans(model), registrar, quality);
   record().timings.registration += passed_since(start);
   note_map(record(), model.map);
 }
@@ -337,8 +340,8 @@ std::vector<int> conclude(ObjectModel& model, Registrar& registrar, QualityRefer
   std::vector<int> came_in = try_again(model, registrar, quality, last, Growth::any);
   ScanRecord& record = model.scans.back();
   record.recovered.insert(record.recovered.end(), came_in.begin(), came_in.end());
-  improve(model, registrar, quality, least_move * model.map.grid().length);
-  if (model.improves_poses && model.graph.size() > 1) {
+  (void)improve_poses(model, least_move * model.map.grid().length);
+  if (model.graph.size() > 1) {
     lay_again(model, registrar);
     make_again(model, merged_scans(model), registrar, quality);
   }

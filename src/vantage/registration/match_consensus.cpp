@@ -131,12 +131,7 @@ class Consensus {
 
   /// RMS distance of the moving places between two poses, metres.
   [[nodiscard]] double distance(const Pose& a, const Pose& b) const {
-    double squares = 0;
-    const std::size_t step = moving_.places.size() / 200 + 1;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < moving_.places.size(); i += step, ++count)
-      squares += (a * moving_.places[i].point - b * moving_.places[i].point).squaredNorm();
-    return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count)));
+    return distance_between(moving_.places, a, b, 200);
   }
 
  private:

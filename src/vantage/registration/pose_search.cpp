@@ -60,9 +60,7 @@ PoseSearch::PoseSearch(const RegisteredSurface& model, const ScanSurface& scan, 
 }
 
 double PoseSearch::distance(const Pose& a, const Pose& b) const {
-  double squares = 0;
-  for (const SurfaceSample& sample : coarse_) squares += (a * sample.point - b * sample.point).squaredNorm();
-  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, coarse_.size())));
+  return distance_between(coarse_, a, b, coarse_.size() + 1);
 }
 
 double PoseSearch::moved(const Eigen::VectorXd& step) const {

@@ -208,12 +208,7 @@ class AnywhereSearch {
 
   /// RMS distance of the scan's samples between two poses, metres.
   [[nodiscard]] double distance(const Pose& a, const Pose& b) const {
-    double squares = 0;
-    const std::size_t step = scan_.samples.size() / 300 + 1;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < scan_.samples.size(); i += step, ++count)
-      squares += (a * scan_.samples[i].point - b * scan_.samples[i].point).squaredNorm();
-    return std::sqrt(squares / static_cast<double>(count));
+    return distance_between(scan_.samples, a, b, 300);
   }
 
   const RegisteredSurface& model_;

@@ -119,6 +119,14 @@ ImageScale scale_of(const RangeImage& image) {
 
 }  // namespace
 
+double distance_between(std::span<const SurfaceSample> samples, const Pose& a, const Pose& b, std::size_t most) {
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < samples.size(); i += samples.size() / most + 1, ++count)
+    squares += (a * samples[i].point - b * samples[i].point).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count)));
+}
+
 void ScanSurfaceOptions::validate() const {
   require(max_samples >= 100, "max_samples = ", max_samples, ": must be at least 100");
   require(normal_sigma > 0 && normal_sigma < 1, "normal_sigma = ", normal_sigma, " rad: must be in (0, 1)");

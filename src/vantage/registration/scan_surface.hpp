@@ -27,6 +27,10 @@ struct ScanSurface {
   std::optional<FreeSpace> free_space;
 };
 
+/// RMS distance of samples between two poses, metres. Of many samples every n-th counts, so that at most `most` do.
+[[nodiscard]] double distance_between(std::span<const SurfaceSample> samples, const Pose& a, const Pose& b,
+                                      std::size_t most);
+
 struct ScanSurfaceOptions {
   int max_samples = 32000;
   /// Standard deviation that a sample's normal should have, radians: decides how large a neighbourhood is averaged.

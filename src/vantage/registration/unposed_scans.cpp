@@ -23,12 +23,7 @@ struct Suggestion {
 
 /// RMS distance of the scan's places between two poses, metres.
 double distance(const SurfaceFeatures& scan, const Pose& a, const Pose& b) {
-  double squares = 0;
-  const std::size_t step = scan.places.size() / 100 + 1;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < scan.places.size(); i += step, ++count)
-    squares += (a * scan.places[i].point - b * scan.places[i].point).squaredNorm();
-  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count)));
+  return distance_between(scan.places, a, b, 100);
 }
 
 /// Suggestions that are about the same speak together.
